@@ -1,0 +1,64 @@
+// SPDX-License-Identifier: Apache-2.0
+/// @file encode.h
+/// Compression: measurement in, `.brdfc` bytes and a verified error out.
+#pragma once
+
+#include <brdf/fit.h>
+#include <brdf/material.h>
+#include <brdf/measurement.h>
+#include <brdf/metrics.h>
+#include <brdf/progress.h>
+
+#include <array>
+#include <cstddef>
+#include <optional>
+#include <string>
+#include <string_view>
+#include <vector>
+
+namespace brdf {
+
+enum class SymmetryMode : std::uint8_t { automatic, keep, enforce };
+
+/// A named point of the effort scale. Effort is encode time only.
+struct Preset {
+  std::string_view name;
+  int effort;
+  std::string_view purpose;
+};
+
+/// fastest, fast, medium, thorough, exhaustive. The one table that code, help and documents use.
+std::span<const Preset> presets() noexcept;
+
+struct EncodeOptions {
+  int effort = 50;                                  ///< 0 to 100
+  std::optional<std::uint64_t> target_size;         ///< bytes of the whole file, never exceeded
+  std::optional<ErrorTarget> target_error;          ///< verified on the decoded file at `level`
+  EvalLevel level = EvalLevel::balanced;            ///< at which errors are stated
+  SymmetryMode reciprocity = SymmetryMode::automatic;
+  SymmetryMode mirror = SymmetryMode::automatic;
+  int threads = 1;                                  ///< bytes do not depend on it
+  bool store_provenance = false;                    ///< adds an optional chunk
+  bool is_valid(std::string* why = nullptr) const;
+};
+
+struct EncodeSummary {
+  FitSummary fit;
+  std::uint64_t bytes = 0, lobe_bytes = 0, residual_bytes = 0, overhead_bytes = 0;
+  int refinements = 0, coefficients = 0;
+  bool reciprocal = false;
+  std::vector<RecordedError> errors;   ///< of the finished file
+  double seconds_sample = 0, seconds_fit = 0, seconds_residual = 0, seconds_verify = 0;
+  std::string brief() const;
+};
+
+struct EncodeResult {
+  std::vector<std::byte> bytes;
+  EncodeSummary summary;
+};
+
+/// Compresses. Throws Error: invalid_argument, no_data, cancelled, target_not_met (its sentence says the best
+/// reachable value). Deterministic for any number of threads and any instruction set.
+EncodeResult encode(const Measurement& m, const EncodeOptions& options = {}, const Progress& progress = {});
+
+}  // namespace brdf

@@ -1,0 +1,119 @@
+// SPDX-License-Identifier: Apache-2.0
+/// @file material.h
+/// What a renderer holds: an immutable, thread-safe handle, cheap to copy.
+#pragma once
+
+#include <brdf/direction.h>
+#include <brdf/limits.h>
+#include <brdf/lobes.h>
+#include <brdf/measurement.h>
+
+#include <cstddef>
+#include <cstdint>
+#include <memory>
+#include <span>
+#include <string>
+#include <vector>
+
+namespace brdf {
+
+/// The evaluation knob. One file serves all three.
+enum class EvalLevel : std::uint8_t {
+  fast = 0,      ///< lobes only
+  balanced = 1,  ///< lobes and a residual grid that lives in the processor's inner caches
+  exact = 2,     ///< lobes and the full residual grid
+};
+const char* to_string(EvalLevel level) noexcept;
+
+/// What travels along a path; decides about eta squared in transmission.
+enum class TransportMode : std::uint8_t { radiance, importance };
+
+/// Bits of Sample::flags; 0 means that no direction was found.
+enum SampleFlags : std::uint32_t { sample_none = 0, sample_reflection = 1, sample_transmission = 2, sample_delta = 4 };
+
+struct Sample {
+  Vec3f wi{0, 0, 0};            ///< unit vector towards the light
+  float pdf = 0;                ///< density per solid angle of wi; a discrete probability for a delta lobe; 0: rejected
+  float eta = 1;                ///< relative index of refraction along the path; 1 for reflection
+  std::uint32_t flags = sample_none;
+};
+
+struct DecodeOptions {
+  DecodeLimits limits;
+  bool allow_prefix = false;              ///< accept a file cut at a refinement boundary
+  EvalLevel level = EvalLevel::balanced;  ///< prepared for this level
+};
+
+/// Recorded error of a refinement at a level, as measured by the encoder against its source.
+struct RecordedError {
+  int refinement = 0;  ///< 0 = lobes only
+  EvalLevel level = EvalLevel::balanced;
+  double log_mae = 0;
+  double psnr_env = 0;  ///< dB
+};
+
+/// What a file says about itself.
+struct MaterialInfo {
+  int format_version = 1;
+  std::uint64_t bytes = 0;         ///< bytes given
+  std::uint64_t total_bytes = 0;   ///< bytes of the whole file
+  int refinements_read = 0, refinements_total = 0;  ///< "k of n", lobes not counted
+  Channels channels;
+  bool reciprocal = false;         ///< exactly f(wi, wo) = f(wo, wi)
+  bool mirror_symmetric = true;
+  std::vector<RecordedError> errors;
+  Provenance provenance;           ///< empty strings where the file carries none
+  std::string fitter;              ///< version that wrote it
+};
+
+/// An isotropic or anisotropic reflector, ready to evaluate, sample and integrate.
+///
+/// Every const member is thread-safe. Evaluation, sampling and pdf are noexcept and never allocate or lock. f is in
+/// 1/sr, without the cosine; 0 with either direction at or below the horizon. Spans of values hold `channels()` floats.
+class Material {
+ public:
+  /// Reads a `.brdfc` file. Throws Error: not_recognized, malformed, truncated, checksum, limit_exceeded, unsupported.
+  static Material decode(std::span<const std::byte> bytes, const DecodeOptions& options = {});
+
+  /// A material of analytic lobes alone. Throws Error(invalid_argument).
+  static Material from_lobes(const LobeSet& lobes);
+
+  /// A new handle with the tables of `level` built. May allocate and throw Error(limit_exceeded).
+  Material prepare(EvalLevel level) const;
+
+  int channels() const noexcept;
+  EvalLevel level() const noexcept;
+  const MaterialInfo& info() const noexcept;
+  const LobeSet& lobes() const noexcept;
+  std::uint64_t resident_bytes() const noexcept;  ///< of the tables that evaluation touches
+
+  void eval(const Vec3f& wi, const Vec3f& wo, std::span<float> f) const noexcept;
+  /// Density of `sample` at wi given wo, per solid angle of wi.
+  float pdf(const Vec3f& wi, const Vec3f& wo) const noexcept;
+  float eval_pdf(const Vec3f& wi, const Vec3f& wo, std::span<float> f) const noexcept;
+  /// Draws wi given wo. u in [0,1)^3: u.x chooses the component, (u.y, u.z) are warped. `weight` = f cos_i / pdf per
+  /// channel. A rejected sample has pdf 0, weight 0 and no flags.
+  Sample sample(const Vec3f& wo, const Vec3f& u, std::span<float> weight,
+                TransportMode mode = TransportMode::radiance) const noexcept;
+  /// Directional albedo: integral of f cos_i over wi, by deterministic quadrature (about 1e-3 relative).
+  void albedo(const Vec3f& wo, std::span<float> a) const noexcept;
+
+  /// Batches: any size, any alignment, in place not allowed. The instruction set is chosen at run time.
+  void eval(DirectionSpan wi, DirectionSpan wo, PlanarSpan f) const noexcept;
+  void pdf(DirectionSpan wi, DirectionSpan wo, float* pdf) const noexcept;
+  void eval_pdf(DirectionSpan wi, DirectionSpan wo, PlanarSpan f, float* pdf) const noexcept;
+  /// u as three planes in a DirectionSpan; writes wi, pdf and weight.
+  void sample(DirectionSpan wo, DirectionSpan u, MutableDirectionSpan wi, float* pdf, PlanarSpan weight,
+              TransportMode mode = TransportMode::radiance) const noexcept;
+
+  struct Impl;
+  explicit Material(std::shared_ptr<const Impl> impl) noexcept : impl_(std::move(impl)) {}
+
+ private:
+  std::shared_ptr<const Impl> impl_;
+};
+
+/// Name of the instruction set that batches use now: "scalar", "SSE4", "AVX2", "AVX3" (AVX-512) and so on.
+const char* simd_target() noexcept;
+
+}  // namespace brdf
