@@ -59,6 +59,6 @@ struct EncodeResult {
 
 /// Compresses. Throws Error: invalid_argument, no_data, cancelled, target_not_met (its sentence says the best
 /// reachable value). Deterministic for any number of threads and any instruction set.
-EncodeResult encode(const Measurement& m, const EncodeOptions& options = {}, const Progress& progress = {});
+EncodeResult compress(const Measurement& m, const EncodeOptions& options = {}, const Progress& progress = {});
 
 }  // namespace brdf

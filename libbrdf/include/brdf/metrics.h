@@ -43,13 +43,14 @@ struct ErrorReport {
   double psnr_lights = 0;      ///< dB, mean of four directional lights, each at most 60
   std::array<double, 4> psnr_light{};  ///< front, deg45, grazing, top; at most 60 each
   double albedo_error = 0;     ///< largest |albedo - albedo'| over channels at cos_o .95 .8 .6 .4 .2
-  std::uint64_t not_finite = 0, negative = 0;  ///< rows of the candidate
+  std::uint64_t not_finite = 0, negative = 0;  ///< rows of the candidate, those of the albedo included
   double get(Metric m) const noexcept;
   /// True when `t` is met.
   bool meets(const ErrorTarget& t) const noexcept;
 };
 
-/// Evaluates rows: values of channel c of row i at out[i * channels + c].
+/// Evaluates rows: values of channel c of row i at out[i * channels + c]. Called from several threads at once when a
+/// comparison has more than one.
 using BatchEval = std::function<void(std::span<const Vec3f> wi, std::span<const Vec3f> wo, std::span<float> out)>;
 
 /// The fixed queries of all metrics and what a reference answers at them. Building one takes the time of about a million

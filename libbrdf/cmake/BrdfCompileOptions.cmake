@@ -1,0 +1,44 @@
+# SPDX-License-Identifier: Apache-2.0
+# Options that every target of this project shares, through brdf_compile_options(<target>).
+
+set(CMAKE_CXX_STANDARD 20)
+set(CMAKE_CXX_STANDARD_REQUIRED ON)
+set(CMAKE_CXX_EXTENSIONS OFF)
+set(CMAKE_POSITION_INDEPENDENT_CODE ON)
+
+if(NOT CMAKE_BUILD_TYPE AND NOT CMAKE_CONFIGURATION_TYPES)
+  set(CMAKE_BUILD_TYPE Release CACHE STRING "Build type" FORCE)
+endif()
+
+if(NOT DEFINED CMAKE_CXX_COMPILER_LAUNCHER)
+  find_program(BRDF_CCACHE ccache)
+  if(BRDF_CCACHE)
+    set(CMAKE_CXX_COMPILER_LAUNCHER "${BRDF_CCACHE}")
+  endif()
+endif()
+
+# A flag of the whole build and not of single targets: code of one kind must not link with code of the other.
+if(BRDF_SANITIZE)
+  set(brdf_sanitize_flags -fsanitize=${BRDF_SANITIZE} -fno-omit-frame-pointer)
+  if(BRDF_SANITIZE MATCHES "undefined")
+    # A float that does not fit its integer is undefined, yet outside gcc's and clang's "undefined" group.
+    list(APPEND brdf_sanitize_flags -fsanitize=float-cast-overflow -fno-sanitize-recover=all)
+  endif()
+  add_compile_options(${brdf_sanitize_flags})
+  add_link_options(${brdf_sanitize_flags})
+endif()
+if(BRDF_BUILD_FUZZERS)
+  if(NOT CMAKE_CXX_COMPILER_ID MATCHES "Clang")
+    message(FATAL_ERROR "BRDF_BUILD_FUZZERS needs clang, found ${CMAKE_CXX_COMPILER_ID}; use the preset 'fuzz'")
+  endif()
+  add_compile_options(-fsanitize=fuzzer-no-link)
+endif()
+
+function(brdf_compile_options target)
+  target_compile_features(${target} PUBLIC cxx_std_20)
+  target_compile_options(${target} PRIVATE
+    -Wall -Wextra -Wpedantic -Wshadow -Wconversion $<$<BOOL:${BRDF_WERROR}>:-Werror>
+    # The bytes written, and the value of the scalar reference, must not depend on whether the processor has a fused
+    # multiply-add. Vector code asks for it by name, so this costs nothing there.
+    -ffp-contract=off)
+endfunction()

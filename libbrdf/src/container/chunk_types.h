@@ -1,0 +1,20 @@
+// SPDX-License-Identifier: Apache-2.0
+// Identifiers of the file format. docs/format.md describes every field.
+#pragma once
+
+#include <cstdint>
+
+namespace brdf::container {
+
+inline constexpr std::uint8_t format_version = 1;
+
+/// Directory entry: bit 7 = optional (may be skipped), bits 6..4 = component, bits 3..0 = type.
+enum class ChunkType : std::uint8_t { lobes = 1, residual = 2, refinement = 3, provenance = 9 };
+inline constexpr std::uint8_t optional_bit = 0x80;
+
+/// What the axes of a component's table are.
+enum class AxesKind : std::uint8_t { half_difference = 0 };
+
+inline constexpr int checksum_bytes = 4;
+
+}  // namespace brdf::container

@@ -1,0 +1,166 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "base/byte_reader.h"
+#include "container/chunk_types.h"
+#include "container/content.h"
+#include "container/error_codes.h"
+#include "container/header.h"
+#include "container/lobe_codes.h"
+#include "container/residual_chunk.h"
+#include "container/varint.h"
+#include "residual/layer_codec.h"
+
+#include <optional>
+
+namespace brdf::container {
+namespace {
+
+RecordedError read_error(std::span<const std::byte>& payload, int refinement, EvalLevel level) {
+  if (payload.size() < 2) throw Error(ErrorCode::malformed, "chunk: ends within its recorded errors");
+  const RecordedError e{refinement, level, log_mae_of(static_cast<std::uint8_t>(payload[0])),
+                        psnr_of(static_cast<std::uint8_t>(payload[1]))};
+  payload = payload.subspan(2);
+  return e;
+}
+
+std::string read_text(base::ByteReader& in) {
+  const std::uint64_t length = read_varint(in, "provenance: text length");
+  const std::span<const std::byte> raw = in.take(length, "the provenance");
+  return {reinterpret_cast<const char*>(raw.data()), raw.size()};
+}
+
+void read_provenance(std::span<const std::byte> payload, Content& content) {
+  base::ByteReader in(payload, "provenance chunk");
+  Provenance p;
+  for (std::string* text : {&p.name, &p.format, &p.description, &p.licence, &content.fitter}) *text = read_text(in);
+  p.content_hash = in.read<std::uint64_t>("the content hash");
+  p.file_bytes = read_varint(in, "provenance: file size");
+  content.provenance = std::move(p);
+}
+
+std::string kind_name(std::uint8_t type) {
+  switch (static_cast<ChunkType>(type)) {
+    case ChunkType::lobes: return "lobes";
+    case ChunkType::residual: return "residual";
+    case ChunkType::refinement: return "refinement";
+    case ChunkType::provenance: return "provenance";
+  }
+  return "type " + std::to_string(type);
+}
+
+/// Reads chunks in file order; what was learnt from one layer goes on to the next.
+class ChunkReader {
+ public:
+  ChunkReader(Unpacked& out, const DecodeLimits& limits) : out_(out), limits_(limits) {}
+
+  void read(std::uint8_t code, std::span<const std::byte> payload) {
+    const std::uint8_t type = code & 0x0FU;
+    if ((code & 0x70U) != 0) throw Error(ErrorCode::unsupported, "chunk: it belongs to component " + std::to_string((code >> 4) & 7U) + ", which is not declared");
+    switch (static_cast<ChunkType>(type)) {
+      case ChunkType::lobes: return lobes(payload);
+      case ChunkType::residual: return residual(payload);
+      case ChunkType::refinement: return refinement(payload);
+      case ChunkType::provenance: return read_provenance(payload, out_.content);
+    }
+    if ((code & optional_bit) == 0)
+      throw Error(ErrorCode::unsupported, "chunk: critical " + kind_name(type) + " is not known to this version");
+  }
+
+ private:
+  void lobes(std::span<const std::byte> payload) {
+    if (have_lobes_) throw Error(ErrorCode::malformed, "chunk: a second lobes chunk");
+    have_lobes_ = true;
+    out_.content.errors.push_back(read_error(payload, 0, EvalLevel::fast));
+    BitReader bits(payload, "lobes chunk");
+    out_.content.lobes = read_lobes(bits, out_.content.component.channels.count, limits_.max_lobes);
+    if (!bits.rest().empty()) throw Error(ErrorCode::malformed, "lobes chunk: bytes are left over");
+  }
+
+  void residual(std::span<const std::byte> payload) {
+    if (!have_lobes_ || codec_) throw Error(ErrorCode::malformed, "chunk: the residual is not directly after the lobes");
+    residual::ResidualCode& code = out_.content.residual;
+    std::span<const std::byte> rest = payload;
+    read_errors(rest, 1);
+    BitReader bits(rest, "residual chunk");
+    code.basis = read_basis(bits, count_);
+    code.reciprocal = out_.content.component.reciprocal;
+    code.channels = out_.content.component.channels.count;
+    codec_.emplace(code.basis, code.reciprocal, code.channels, count_);
+    layer(bits.rest());
+  }
+
+  void refinement(std::span<const std::byte> payload) {
+    if (!codec_) throw Error(ErrorCode::malformed, "chunk: a refinement without a residual before it");
+    read_errors(payload, out_.refinements_read + 1);
+    layer(payload);
+  }
+
+  void read_errors(std::span<const std::byte>& payload, int refinement) {
+    for (const EvalLevel level : {EvalLevel::balanced, EvalLevel::exact})
+      out_.content.errors.push_back(read_error(payload, refinement, level));
+  }
+
+  void layer(std::span<const std::byte> bytes) {
+    auto& layers = out_.content.residual.layers;
+    const residual::Layer* before = layers.empty() ? nullptr : &layers.back();
+    layers.push_back(residual::decode_layer(*codec_, before, bytes, static_cast<std::size_t>(out_.content.residual.channels), count_));
+    ++out_.refinements_read;
+  }
+
+  Unpacked& out_;
+  const DecodeLimits& limits_;
+  bool have_lobes_ = false;
+  std::uint32_t count_ = 0;
+  std::optional<residual::LayerCodec> codec_;
+};
+
+bool is_layer(std::uint8_t code) noexcept {
+  const auto type = static_cast<ChunkType>(code & 0x0FU);
+  return type == ChunkType::residual || type == ChunkType::refinement;
+}
+
+}  // namespace
+
+std::vector<std::uint64_t> boundaries(std::span<const std::byte> bytes, const DecodeLimits& limits) {
+  const Header header = read_header(bytes, limits);
+  std::vector<std::uint64_t> ends;
+  std::uint64_t at = header.header_bytes;
+  for (const DirectoryEntry& e : header.directory) {
+    at += e.length + checksum_bytes;
+    if (is_layer(e.code) || static_cast<ChunkType>(e.code & 0x0FU) == ChunkType::lobes) ends.push_back(at);
+  }
+  return ends;
+}
+
+Unpacked unpack(std::span<const std::byte> bytes, const DecodeLimits& limits, bool allow_prefix) {
+  const Header header = read_header(bytes, limits);
+  Unpacked out;
+  out.content.component = header.component;
+  out.total_bytes = header.total_bytes;
+  for (const DirectoryEntry& e : header.directory) out.refinements_total += is_layer(e.code) ? 1 : 0;
+  if (bytes.size() > header.total_bytes)
+    throw Error(ErrorCode::malformed, ".brdfc file: " + std::to_string(bytes.size()) + " bytes, the header says " + std::to_string(header.total_bytes));
+  if (bytes.size() < header.total_bytes && !allow_prefix)
+    throw Error(ErrorCode::truncated, ".brdfc file: " + std::to_string(bytes.size()) + " bytes of " + std::to_string(header.total_bytes) + "; a coarser material is read only when a prefix is asked for");
+
+  ChunkReader reader(out, limits);
+  std::uint32_t checksum = header.checksum;
+  std::uint64_t at = header.header_bytes;
+  for (const DirectoryEntry& e : header.directory) {
+    if (at == bytes.size() && at > header.header_bytes) break;  // cut exactly at a boundary
+    if (bytes.size() - at < e.length + checksum_bytes)
+      throw Error(ErrorCode::truncated, ".brdfc file: " + std::to_string(bytes.size()) + " bytes end within the " +
+                                            kind_name(e.code & 0x0FU) + " chunk, which ends at byte " +
+                                            std::to_string(at + e.length + checksum_bytes));
+    const std::span<const std::byte> payload = bytes.subspan(at, e.length);
+    checksum = chain(payload, checksum);
+    if (base::load_little_endian<std::uint32_t>(bytes.subspan(at + e.length, checksum_bytes)) != checksum)
+      throw Error(ErrorCode::checksum, ".brdfc file: checksum of the " + kind_name(e.code & 0x0FU) + " chunk does not match, the file is damaged");
+    reader.read(e.code, payload);
+    at += e.length + checksum_bytes;
+  }
+  if (out.content.lobes.channels != out.content.component.channels.count || out.content.errors.empty())
+    throw Error(ErrorCode::malformed, ".brdfc file: it has no lobes chunk");
+  return out;
+}
+
+}  // namespace brdf::container

@@ -1,0 +1,67 @@
+// SPDX-License-Identifier: Apache-2.0
+// Bytes to a Material, and a Material to another evaluation level.
+#include "container/content.h"
+#include "eval/material_impl.h"
+#include "residual/reconstruct.h"
+
+#include <brdf/error.h>
+#include <brdf/material.h>
+
+#include <memory>
+#include <string>
+#include <utility>
+
+namespace brdf {
+namespace {
+
+/// What prepare() needs to build the tables of any level.
+struct Source {
+  residual::Coefficients coefficients;
+  DecodeLimits limits;
+};
+
+residual::ResidualGrid grid_for(const Source& source, EvalLevel level) {
+  if (level == EvalLevel::fast || source.coefficients.order.empty()) return {};
+  const residual::GridSize& size = level == EvalLevel::exact ? residual::exact_grid : residual::balanced_grid;
+  const std::size_t bytes = residual::grid_bytes(size, source.coefficients.reciprocal, source.coefficients.channels);
+  if (bytes > source.limits.max_table_bytes)
+    throw Error(ErrorCode::limit_exceeded, "the " + std::string(to_string(level)) + " table needs " + std::to_string(bytes) +
+                                               " bytes, the limit is " + std::to_string(source.limits.max_table_bytes));
+  return residual::reconstruct(source.coefficients, size);
+}
+
+}  // namespace
+
+Material Material::decode(std::span<const std::byte> bytes, const DecodeOptions& options) {
+  container::Unpacked file = container::unpack(bytes, options.limits, options.allow_prefix);
+  container::Content& content = file.content;
+  MaterialInfo info;
+  info.bytes = bytes.size();
+  info.total_bytes = file.total_bytes;
+  info.refinements_read = file.refinements_read;
+  info.refinements_total = file.refinements_total;
+  info.channels = content.component.channels;
+  info.reciprocal = content.component.reciprocal;
+  info.mirror_symmetric = content.component.mirror_symmetric;
+  info.errors = std::move(content.errors);
+  if (content.provenance) info.provenance = std::move(*content.provenance);
+  info.fitter = std::move(content.fitter);
+
+  auto source = std::make_shared<Source>();
+  source->coefficients = residual::dequantise(content.residual, content.component.transform, content.residual.layers.size());
+  source->coefficients.channels = info.channels.count;
+  source->limits = options.limits;
+  auto impl = eval::make_impl(std::move(info), std::move(content.lobes), grid_for(*source, options.level), options.level);
+  impl->source = std::move(source);
+  return Material(std::move(impl));
+}
+
+Material Material::prepare(EvalLevel level) const {
+  if (level == this->level()) return *this;
+  const auto* source = static_cast<const Source*>(impl_->source.get());
+  auto impl = eval::make_impl(impl_->info, impl_->lobes, source != nullptr ? grid_for(*source, level) : residual::ResidualGrid{}, level);
+  impl->source = impl_->source;
+  return Material(std::move(impl));
+}
+
+}  // namespace brdf

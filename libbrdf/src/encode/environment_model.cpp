@@ -1,0 +1,114 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "encode/error_model.h"
+#include "residual/order_extent.h"
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+
+namespace brdf::encode {
+namespace {
+
+constexpr double gamma = 2.2;
+
+/// Products of basis functions at one pair of directions, added to a row.
+class BasisRow {
+ public:
+  BasisRow(const residual::Basis& basis, std::span<const residual::Frequency> order) : basis_(basis), order_(order) {
+    const residual::Extent e = residual::extent(order);
+    k_.resize(static_cast<std::size_t>(e.k));
+    l_.resize(static_cast<std::size_t>(e.l));
+    m_.resize(static_cast<std::size_t>(e.m));
+    lm_.resize(l_.size() * m_.size());
+  }
+  void add(const geometry::HalfDifference<double>& g, double weight, double* row) {
+    const double u_h = residual::warp(residual::chord(g.sin_theta_h, g.cos_theta_h), basis_.kappa_h);
+    const double u_d = residual::warp(residual::chord(g.sin_theta_d, g.cos_theta_d), basis_.kappa_d);
+    residual::cosines(std::cos(3.14159265358979324 * u_h), static_cast<int>(k_.size()), k_.data());
+    residual::cosines(std::cos(3.14159265358979324 * u_d), static_cast<int>(l_.size()), l_.data());
+    residual::cosines(g.cos_phi_d, static_cast<int>(m_.size()), m_.data());
+    const double window = residual::pole_window(g.sin_theta_h, basis_.window_h) * residual::pole_window(g.sin_theta_d, basis_.window_d);
+    double power = weight;
+    for (std::size_t m = 0; m < m_.size(); ++m, power *= window)
+      for (std::size_t l = 0; l < l_.size(); ++l) lm_[m * l_.size() + l] = m_[m] * power * l_[l];
+    for (std::size_t j = 0; j < order_.size(); ++j) row[j] += k_[order_[j].k] * lm_[order_[j].m * l_.size() + order_[j].l];
+  }
+
+ private:
+  const residual::Basis& basis_;
+  std::span<const residual::Frequency> order_;
+  std::vector<double> k_, l_, m_, lm_;
+};
+
+}  // namespace
+
+void add_environment(ErrorModel& model, const Measurement& m, const LobeSet& lobes, const metrics::QuerySet& queries,
+                     const residual::Basis& basis, std::span<const residual::Frequency> order,
+                     residual::ChannelTransform transform, double weight) {
+  const metrics::ImageRows& image = queries.image[0];
+  const int channels = m.channels.count;
+  const auto n = static_cast<std::size_t>(channels);
+  const MeasurementInterpolator reference(m);
+
+  // what the image shows, for the slope of the display curve
+  std::vector<double> f(image.rows * n);
+  std::vector<double> light(image.pixels * n, 0.0);
+  for (std::size_t r = 0; r < image.rows; ++r) {
+    const std::size_t row = image.first + r;
+    reference.eval(Vec3d(queries.wi[row]), Vec3d(queries.wo[row]), std::span(f).subspan(r * n, n));
+    for (std::size_t c = 0; c < n; ++c)
+      light[queries.pixel[row] * n + c] += f[r * n + c] * queries.gain(row, static_cast<int>(c), channels);
+  }
+  double mean = 0;
+  for (const double v : light) mean += v;
+  mean /= static_cast<double>(light.size());
+  if (!(mean > 0)) return;
+  const double exposure = 0.5 / mean;
+  std::vector<double> slope(light.size());  // of the shown value per unit of light
+  for (std::size_t i = 0; i < light.size(); ++i) {
+    const double v = std::max(light[i], 1e-3 * mean);
+    slope[i] = light[i] * exposure < 1 ? std::pow(v * exposure, 1 / gamma) / gamma / v : 0.0;
+  }
+
+  // rows of the operator: pixel values as linear functions of the coefficients (one for all channels) and their target
+  std::vector<double> rows(image.pixels * model.size, 0.0), target(image.pixels * n, 0.0), l(n);
+  BasisRow basis_row(basis, order);
+  for (std::size_t r = 0; r < image.rows; ++r) {
+    const std::size_t row = image.first + r, pixel = queries.pixel[row];
+    const Vec3d wi(queries.wi[row]), wo(queries.wo[row]);
+    double g = 0;
+    for (std::size_t c = 0; c < n; ++c)
+      g += slope[pixel * n + c] * (f[r * n + c] + basis.epsilon) * queries.gain(row, static_cast<int>(c), channels);
+    g /= static_cast<double>(n);
+    if (g == 0) continue;
+    eval_lobes(lobes, wi, wo, l);
+    for (std::size_t c = 0; c < n; ++c)
+      target[pixel * n + c] += g * std::log((f[r * n + c] + basis.epsilon) / (l[c] + basis.epsilon));
+    basis_row.add(geometry::half_difference(wi, wo), g, rows.data() + pixel * model.size);
+  }
+
+  const double scale = weight / image.pixels;
+  constexpr std::size_t block = 8;  // rows at a time, so that the matrix is read once per block
+  for (std::size_t p0 = 0; p0 < image.pixels; p0 += block) {
+    const std::size_t p1 = std::min<std::size_t>(image.pixels, p0 + block);
+    for (std::size_t i = 0; i < model.size; ++i) {
+      double* out = model.gram.data() + i * model.size;
+      for (std::size_t p = p0; p < p1; ++p) {
+        const double* a = rows.data() + p * model.size;
+        const double s = scale * a[i];
+        for (std::size_t j = 0; j < model.size; ++j) out[j] += s * a[j];
+      }
+    }
+  }
+  const std::vector<double> matrix = residual::channel_matrix(transform, channels);
+  for (std::size_t t = 0; t < n; ++t)
+    for (std::size_t p = 0; p < image.pixels; ++p) {
+      double y = 0;
+      for (std::size_t c = 0; c < n; ++c) y += matrix[t * n + c] * target[p * n + c];
+      model.constant += scale * y * y;
+      const double* a = rows.data() + p * model.size;
+      for (std::size_t j = 0; j < model.size; ++j) model.b[t][j] += scale * y * a[j];
+    }
+}
+
+}  // namespace brdf::encode

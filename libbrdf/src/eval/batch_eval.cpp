@@ -1,0 +1,75 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "eval/highway_targets.h"
+
+#undef HWY_TARGET_INCLUDE
+#define HWY_TARGET_INCLUDE "eval/batch_eval.cpp"
+#include <hwy/foreach_target.h>  // compiles this file once per instruction set
+
+#include "eval/batch_eval.h"
+
+#include <brdf/material.h>
+
+#include <hwy/highway.h>
+
+#include "eval/eval_kernel-inl.h"
+
+HWY_BEFORE_NAMESPACE();
+namespace brdf::eval::HWY_NAMESPACE {
+
+template <bool with_f, bool with_pdf>
+HWY_INLINE void run(const Tables& t, const DirectionSpan& wi, const DirectionSpan& wo, PlanarSpan f, float* pdf) {
+  const std::size_t lanes = hn::Lanes(Floats());
+  for (std::size_t i = 0; i < wi.size; i += lanes) {
+    const std::size_t count = HWY_MIN(lanes, wi.size - i);
+    const PairVectors p = pair_vectors(load_directions(wi, i, count), load_directions(wo, i, count));
+    if constexpr (with_f) eval_pairs(t, p, set(1.0f), {f, i, count});
+    if constexpr (with_pdf) store_first(mixture_density(t, p), pdf + i, count);
+  }
+}
+
+void run_eval(const Tables& t, const DirectionSpan& wi, const DirectionSpan& wo, PlanarSpan f) {
+  run<true, false>(t, wi, wo, f, nullptr);
+}
+
+void run_pdf(const Tables& t, const DirectionSpan& wi, const DirectionSpan& wo, float* pdf) {
+  run<false, true>(t, wi, wo, {}, pdf);
+}
+
+void run_eval_pdf(const Tables& t, const DirectionSpan& wi, const DirectionSpan& wo, PlanarSpan f, float* pdf) {
+  run<true, true>(t, wi, wo, f, pdf);
+}
+
+}  // namespace brdf::eval::HWY_NAMESPACE
+HWY_AFTER_NAMESPACE();
+
+#if HWY_ONCE
+namespace brdf {
+namespace eval {
+
+HWY_EXPORT(run_eval);
+HWY_EXPORT(run_pdf);
+HWY_EXPORT(run_eval_pdf);
+
+void eval_batch(const Tables& t, DirectionSpan wi, DirectionSpan wo, PlanarSpan f) noexcept {
+  HWY_DYNAMIC_DISPATCH(run_eval)(t, wi, wo, f);
+}
+
+void pdf_batch(const Tables& t, DirectionSpan wi, DirectionSpan wo, float* pdf) noexcept {
+  HWY_DYNAMIC_DISPATCH(run_pdf)(t, wi, wo, pdf);
+}
+
+void eval_pdf_batch(const Tables& t, DirectionSpan wi, DirectionSpan wo, PlanarSpan f, float* pdf) noexcept {
+  HWY_DYNAMIC_DISPATCH(run_eval_pdf)(t, wi, wo, f, pdf);
+}
+
+}  // namespace eval
+
+const char* simd_target() noexcept {
+  // SupportedTargets holds one bit per usable instruction set, the best one lowest; HWY_TARGETS are those compiled.
+  const std::int64_t usable = hwy::SupportedTargets() & HWY_TARGETS;
+  const std::int64_t best = usable & -usable;
+  return best == HWY_SCALAR || best == HWY_EMU128 ? "scalar" : hwy::TargetName(best);
+}
+
+}  // namespace brdf
+#endif

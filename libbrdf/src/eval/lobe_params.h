@@ -1,0 +1,44 @@
+// SPDX-License-Identifier: Apache-2.0
+// A LobeSet in the form that evaluation reads: float, products precomputed, Lambert lobes added up.
+#pragma once
+
+#include <brdf/lobes.h>
+
+#include <cstddef>
+#include <vector>
+
+namespace brdf::eval {
+
+/// Most GGX lobes of one material: evaluation keeps a value for each on the stack.
+inline constexpr int max_ggx_lobes = 16;
+/// Largest reflectance of a lobe. With the floors in the lobe formulas it keeps every value below the largest float.
+inline constexpr double max_reflectance = 1e4;
+inline constexpr double min_alpha = 1e-5;
+
+/// Constants of one GGX lobe, one cache line.
+struct alignas(64) GgxLobe {
+  float alpha = 1, inv_alpha = 1;
+  float alpha2 = 1, one_minus_alpha2 = 0;
+  float f90 = 1;
+  bool retro = false;
+  const float* f0 = nullptr;  ///< one value per channel, padded with 0 to padded_channels
+};
+
+struct LobeParams {
+  int channels = 0;
+  std::vector<GgxLobe> ggx;
+  std::size_t padded_channels = 0;  ///< the next multiple of 8, so that kernels may read whole vectors of colours
+  bool any_retro = false;
+  std::vector<float> lambert;  ///< sum of rho / pi, one per padded channel
+  std::vector<float> f0;       ///< of all GGX lobes, lobe by lobe
+
+  LobeParams() = default;
+  /// Throws Error(invalid_argument) or Error(limit_exceeded) for a set that cannot be evaluated.
+  explicit LobeParams(const LobeSet& set);
+  LobeParams(const LobeParams&) = delete;
+  LobeParams& operator=(const LobeParams&) = delete;
+  LobeParams(LobeParams&&) noexcept = default;  // the heap blocks stay, and so the pointers into f0
+  LobeParams& operator=(LobeParams&&) noexcept = default;
+};
+
+}  // namespace brdf::eval

@@ -1,0 +1,78 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "eval/batch_eval.h"
+#include "eval/material_impl.h"
+#include "eval/scalar_eval.h"
+
+#include <utility>
+
+namespace brdf {
+
+const char* to_string(EvalLevel level) noexcept {
+  switch (level) {
+    case EvalLevel::fast: return "fast";
+    case EvalLevel::balanced: return "balanced";
+    case EvalLevel::exact: return "exact";
+  }
+  return "unknown";
+}
+
+namespace eval {
+
+std::shared_ptr<Material::Impl> make_impl(MaterialInfo info, LobeSet lobes, residual::ResidualGrid grid, EvalLevel level) {
+  auto impl = std::make_shared<Material::Impl>();
+  impl->info = std::move(info);
+  impl->lobes = std::move(lobes);
+  impl->grid = std::move(grid);
+  impl->level = level;
+  impl->tables.lobes = LobeParams(impl->lobes);
+  impl->tables.grid = GridParams(impl->grid, impl->lobes.channels);
+  impl->tables.mixture = Mixture(impl->tables.lobes, impl->tables.grid);
+  return impl;
+}
+
+}  // namespace eval
+
+Material Material::from_lobes(const LobeSet& lobes) {
+  MaterialInfo info;
+  info.channels.count = lobes.channels;
+  info.channels.model = lobes.channels == 3 ? ChannelModel::rgb : ChannelModel::scalar;
+  info.reciprocal = true;
+  return Material(eval::make_impl(std::move(info), lobes, {}, EvalLevel::fast));
+}
+
+int Material::channels() const noexcept { return impl_->tables.lobes.channels; }
+EvalLevel Material::level() const noexcept { return impl_->level; }
+const MaterialInfo& Material::info() const noexcept { return impl_->info; }
+const LobeSet& Material::lobes() const noexcept { return impl_->lobes; }
+
+std::uint64_t Material::resident_bytes() const noexcept {
+  const eval::Tables& t = impl_->tables;
+  return sizeof(eval::Tables) + t.lobes.ggx.size() * sizeof(eval::GgxLobe) +
+         t.mixture.lobe.size() * sizeof(eval::Mixture::Curve) +
+         (t.lobes.lambert.size() + t.lobes.f0.size()) * sizeof(float) +
+         impl_->grid.ratio.size() * sizeof(std::uint16_t);
+}
+
+void Material::eval(const Vec3f& wi, const Vec3f& wo, std::span<float> f) const noexcept {
+  eval::eval_scalar(impl_->tables.lobes, impl_->tables.grid, wi, wo, f);
+}
+
+float Material::pdf(const Vec3f& wi, const Vec3f& wo) const noexcept { return eval::pdf_scalar(impl_->tables, wi, wo); }
+
+float Material::eval_pdf(const Vec3f& wi, const Vec3f& wo, std::span<float> f) const noexcept {
+  return eval::eval_pdf_scalar(impl_->tables, wi, wo, f);
+}
+
+void Material::eval(DirectionSpan wi, DirectionSpan wo, PlanarSpan f) const noexcept {
+  eval::eval_batch(impl_->tables, wi, wo, f);
+}
+
+void Material::pdf(DirectionSpan wi, DirectionSpan wo, float* pdf) const noexcept {
+  eval::pdf_batch(impl_->tables, wi, wo, pdf);
+}
+
+void Material::eval_pdf(DirectionSpan wi, DirectionSpan wo, PlanarSpan f, float* pdf) const noexcept {
+  eval::eval_pdf_batch(impl_->tables, wi, wo, f, pdf);
+}
+
+}  // namespace brdf

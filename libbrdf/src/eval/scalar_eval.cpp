@@ -1,0 +1,142 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "eval/scalar_eval.h"
+
+#include "eval/scalar_grid.h"
+
+#include <array>
+#include <numbers>
+
+namespace brdf::eval {
+
+namespace {
+
+constexpr float half_inv_pi = static_cast<float>(0.5 * std::numbers::inv_pi);
+constexpr float inv_pi = std::numbers::inv_pi_v<float>;
+
+/// D = numerator / denominator^2 with
+///   numerator = |s|^4 / pi,   denominator = |s|^2 (sin^2 theta_h / alpha + alpha cos^2 theta_h),
+/// kept apart so that one division serves D and what it is divided by. Near the peak no digits cancel, and at alpha 1e-5
+/// nothing leaves the range of float. Here the numerator is halved, as both uses want it.
+struct Ndf {
+  float numerator, denominator;
+};
+
+inline Ndf ndf(const GgxLobe& g, const PairTerms& p) noexcept {
+  const float in_plane = g.retro ? p.d_xy2 : p.s_xy2;
+  const float s2 = in_plane + p.s_z2;
+  return {half_inv_pi * (s2 * s2), in_plane * g.inv_alpha + p.s_z2 * g.alpha};
+}
+
+inline float guarded_quotient(const Ndf& n, float divisor) noexcept {
+  return n.numerator / std::max(n.denominator * n.denominator * divisor, min_denominator);
+}
+
+/// D G2 / (4 cos_i cos_o), with G2 of Heitz 2014, eq. 99: 1 / (2 (co sqrt(a2 + (1 - a2) ci^2) + ci sqrt(...))).
+inline float ggx_value(const GgxLobe& g, const PairTerms& p) noexcept {
+  const float shadowing = p.low * std::sqrt(g.alpha2 + g.one_minus_alpha2 * (p.high * p.high)) +
+                          p.high * std::sqrt(g.alpha2 + g.one_minus_alpha2 * (p.low * p.low));
+  return guarded_quotient(ndf(g, p), shadowing);
+}
+
+/// Density of wi from the visible normals of wo: G1 D / (4 cos_o) (Heitz 2018, eq. 3 with the reflection Jacobian).
+inline float ggx_density(const GgxLobe& g, const PairTerms& p, float cos_o) noexcept {
+  return guarded_quotient(ndf(g, p), cos_o + std::sqrt(g.alpha2 + g.one_minus_alpha2 * (cos_o * cos_o)));
+}
+
+/// Lobe values apart from colour: f_c = lambert_c + sum f0_kc plain_k + grazing.
+struct LobeValues {
+  std::array<float, max_ggx_lobes> plain;
+  float grazing = 0;
+};
+
+inline LobeValues lobe_values(const LobeParams& lobes, const PairTerms& p) noexcept {
+  LobeValues v;
+  const float forward = schlick_weight(p.s * p.inv_norm);
+  const float backward = lobes.any_retro ? schlick_weight(std::sqrt(p.d_xy2 + p.s_z2) * p.inv_norm) : 0.0f;
+  for (std::size_t k = 0; k < lobes.ggx.size(); ++k) {
+    const GgxLobe& g = lobes.ggx[k];
+    const float value = ggx_value(g, p), fresnel = g.retro ? backward : forward;
+    v.plain[k] = value - value * fresnel;
+    v.grazing += g.f90 * (value * fresnel);
+  }
+  return v;
+}
+
+inline float lobe_sum(const LobeParams& lobes, const LobeValues& v, std::size_t c) noexcept {
+  float sum = lobes.lambert[c] + v.grazing;
+  for (std::size_t k = 0; k < lobes.ggx.size(); ++k) sum += lobes.ggx[k].f0[c] * v.plain[k];
+  return sum;
+}
+
+inline float with_ratio(float lobes, float ratio, float epsilon) noexcept {
+  return std::max((lobes + epsilon) * ratio - epsilon, 0.0f);
+}
+
+void eval_terms(const LobeParams& lobes, const GridParams& g, const PairTerms& p, std::span<float> f) noexcept {
+  const LobeValues v = lobe_values(lobes, p);
+  const std::size_t channels = f.size();
+  for (std::size_t c = 0; c < channels; ++c) f[c] = lobe_sum(lobes, v, c);
+  if (!g.ratio) return;
+  const GridPosition at = grid_position(g, p);
+  if (channels == 3) {  // the six halves of two neighbours along p are adjacent
+    float r[8];
+    interpolate_rows<8>(g, at, 0, r);
+    for (std::size_t c = 0; c < 3; ++c) f[c] = with_ratio(f[c], r[c] + (r[c + 3] - r[c]) * at.p, g.epsilon);
+    return;
+  }
+  const auto step = static_cast<std::size_t>(g.step_p);
+  for (std::size_t c = 0; c < channels; ++c) {
+    float below, above;
+    interpolate_rows<1>(g, at, c, &below);
+    interpolate_rows<1>(g, at, c + step, &above);
+    f[c] = with_ratio(f[c], below + (above - below) * at.p, g.epsilon);
+  }
+}
+
+float pdf_terms(const Tables& t, const PairTerms& p, float cos_i, float cos_o) noexcept {
+  const Mixture::Curve powers = bernstein_powers(std::min(cos_o, 1.0f));
+  float rest = 1.0f, density = 0.0f;
+  for (std::size_t k = 0; k < t.lobes.ggx.size(); ++k) {
+    const float w = mixture_weight(t.mixture.lobe[k], powers);
+    rest -= w;
+    density += w * ggx_density(t.lobes.ggx[k], p, cos_o);
+  }
+  return density + std::max(rest, 0.0f) * (cos_i * inv_pi);
+}
+
+}  // namespace
+
+void eval_scalar(const LobeParams& lobes, const GridParams& grid, const Vec3f& wi, const Vec3f& wo,
+                 std::span<float> f) noexcept {
+  const PairTerms p = pair_terms(wi, wo);
+  f = f.first(static_cast<std::size_t>(lobes.channels));
+  if (p.valid)
+    eval_terms(lobes, grid, p, f);
+  else
+    std::fill(f.begin(), f.end(), 0.0f);
+}
+
+void component_densities(const LobeParams& lobes, const Vec3f& wi, const Vec3f& wo, std::span<float> density) noexcept {
+  const PairTerms p = pair_terms(wi, wo);
+  density[0] = p.valid ? wi.z * inv_pi : 0.0f;
+  for (std::size_t k = 0; k < lobes.ggx.size(); ++k)
+    density[k + 1] = p.valid ? ggx_density(lobes.ggx[k], p, wo.z) : 0.0f;
+}
+
+float pdf_scalar(const Tables& t, const Vec3f& wi, const Vec3f& wo) noexcept {
+  const PairTerms p = pair_terms(wi, wo);
+  return p.valid ? pdf_terms(t, p, wi.z, wo.z) : 0.0f;
+}
+
+float eval_pdf_scalar(const Tables& t, const Vec3f& wi, const Vec3f& wo, std::span<float> f) noexcept {
+  const PairTerms p = pair_terms(wi, wo);
+  f = f.first(static_cast<std::size_t>(t.lobes.channels));
+  if (!p.valid) {
+    std::fill(f.begin(), f.end(), 0.0f);
+    return 0.0f;
+  }
+  eval_terms(t.lobes, t.grid, p, f);
+  return pdf_terms(t, p, wi.z, wo.z);
+}
+
+}  // namespace brdf::eval

@@ -1,0 +1,25 @@
+// SPDX-License-Identifier: Apache-2.0
+// Float evaluation of one pair, in plain C++: what single calls use, and the fallback that needs no instruction set.
+#pragma once
+
+#include "eval/pair_terms.h"
+#include "eval/tables.h"
+
+#include <span>
+
+namespace brdf::eval {
+
+/// f of the whole material (lobes and grid) into `f`, channels values.
+void eval_scalar(const LobeParams& lobes, const GridParams& grid, const Vec3f& wi, const Vec3f& wo,
+                 std::span<float> f) noexcept;
+
+/// Density of the sampling mixture at wi given wo.
+float pdf_scalar(const Tables& t, const Vec3f& wi, const Vec3f& wo) noexcept;
+
+/// Densities of the components alone: the cosine lobe, then each GGX lobe.
+void component_densities(const LobeParams& lobes, const Vec3f& wi, const Vec3f& wo, std::span<float> density) noexcept;
+
+/// f and the density at once.
+float eval_pdf_scalar(const Tables& t, const Vec3f& wi, const Vec3f& wo, std::span<float> f) noexcept;
+
+}  // namespace brdf::eval

@@ -1,0 +1,17 @@
+// SPDX-License-Identifier: Apache-2.0
+// Everything that evaluation, pdf and sampling read.
+#pragma once
+
+#include "eval/grid_params.h"
+#include "eval/lobe_params.h"
+#include "eval/mixture.h"
+
+namespace brdf::eval {
+
+struct Tables {
+  LobeParams lobes;
+  GridParams grid;
+  Mixture mixture;
+};
+
+}  // namespace brdf::eval

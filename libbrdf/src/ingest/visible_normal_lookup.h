@@ -1,0 +1,32 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <brdf/measurement.h>
+
+#include "ingest/bilinear_density.h"
+
+#include <span>
+#include <vector>
+
+namespace brdf::ingest {
+
+/// Interpolated value of an RGL table (Dupuy and Jakob 2018, section 5). Keeps a reference to the table.
+class VisibleNormalLookup {
+ public:
+  /// Throws Error(invalid_argument) when the sizes of `table` contradict each other.
+  VisibleNormalLookup(const VisibleNormalTable& table, int channels);
+
+  /// As MeasurementInterpolator::eval.
+  bool eval(const Vec3d& wi, const Vec3d& wo, std::span<double> f) const noexcept;
+
+ private:
+  SliceBlend elevation_blend(double theta_i) const noexcept;
+  double jacobian(double u_i, const Vec3d& wi, SquarePoint half) const noexcept;
+
+  const VisibleNormalTable& table_;
+  std::size_t channels_;
+  BilinearDensity visible_normals_;
+  bool sigma_is_isotropic_;  ///< every row of sigma is the same: the azimuth of wi is not needed
+};
+
+}  // namespace brdf::ingest

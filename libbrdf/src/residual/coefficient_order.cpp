@@ -1,0 +1,23 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "residual/coefficient_order.h"
+
+namespace brdf::residual {
+
+std::vector<Frequency> coefficient_order(const OrderShape& shape, bool even_m_only, std::uint32_t count) {
+  // bucket sort by radius: deterministic and linear
+  const int largest = shape.k * (max_k - 1) + shape.l * (max_l - 1) + shape.m * (max_m - 1);
+  const int step_m = even_m_only ? 2 : 1;
+  std::vector<Frequency> order;
+  order.reserve(count);
+  for (int radius = 0; radius <= largest && order.size() < count; ++radius)
+    for (int m = 0; m < max_m && shape.m * m <= radius; m += step_m)
+      for (int l = 0; l < max_l && shape.m * m + shape.l * l <= radius; ++l) {
+        const int rest = radius - shape.m * m - shape.l * l;
+        if (rest % shape.k != 0 || rest / shape.k >= max_k) continue;
+        if (order.size() == count) return order;
+        order.push_back({static_cast<std::uint8_t>(rest / shape.k), static_cast<std::uint8_t>(l), static_cast<std::uint8_t>(m)});
+      }
+  return order;
+}
+
+}  // namespace brdf::residual

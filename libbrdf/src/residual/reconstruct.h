@@ -1,0 +1,39 @@
+// SPDX-License-Identifier: Apache-2.0
+// From coefficients to the table that evaluation reads.
+#pragma once
+
+#include "residual/channel_transform.h"
+#include "residual/residual_code.h"
+#include "residual/residual_grid.h"
+
+#include <vector>
+
+namespace brdf::residual {
+
+/// Dequantised coefficients of some layers.
+struct Coefficients {
+  BasisCodes basis;
+  bool reciprocal = false;
+  int channels = 0;
+  ChannelTransform transform = ChannelTransform::identity;
+  std::vector<Frequency> order;
+  std::vector<std::vector<float>> values;  ///< values[c][j] of transformed channel c at order[j]
+};
+
+/// Adds up the first `layers` layers of a code.
+Coefficients dequantise(const ResidualCode& code, ChannelTransform transform, std::size_t layers);
+
+/// Nodes of a grid.
+struct GridSize {
+  int n_h, n_d, n_p;  ///< n_p is for phi_d over [0, pi]; reciprocal grids need half of it
+};
+inline constexpr GridSize balanced_grid{56, 28, 25};
+inline constexpr GridSize exact_grid{128, 64, 49};
+
+/// Bytes of the table for a size.
+std::size_t grid_bytes(const GridSize& size, bool reciprocal, int channels) noexcept;
+
+/// Evaluates the basis on the nodes.
+ResidualGrid reconstruct(const Coefficients& c, const GridSize& size);
+
+}  // namespace brdf::residual

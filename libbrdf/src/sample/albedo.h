@@ -1,0 +1,16 @@
+// SPDX-License-Identifier: Apache-2.0
+// Directional albedo.
+#pragma once
+
+#include "eval/tables.h"
+
+#include <brdf/direction.h>
+
+#include <span>
+
+namespace brdf::sample {
+
+/// Integral of f cos_i over wi. See Material::albedo.
+void albedo(const eval::Tables& t, const Vec3f& wo, std::span<float> a) noexcept;
+
+}  // namespace brdf::sample

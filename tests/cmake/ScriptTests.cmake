@@ -1,0 +1,22 @@
+# SPDX-License-Identifier: Apache-2.0
+# Tests of the command line (tests/cli/*.sh, *.py) and of the source tree. Exit code 77 means skipped.
+find_package(Python3 REQUIRED COMPONENTS Interpreter)
+
+file(GLOB scripts CONFIGURE_DEPENDS "${CMAKE_CURRENT_SOURCE_DIR}/cli/*.sh" "${CMAKE_CURRENT_SOURCE_DIR}/cli/*.py")
+foreach(script IN LISTS scripts)
+  cmake_path(GET script STEM name)
+  cmake_path(GET script EXTENSION extension)
+  if(extension STREQUAL ".py")
+    set(runner "${Python3_EXECUTABLE}")
+  else()
+    set(runner bash)
+  endif()
+  add_test(NAME cli.${name} COMMAND ${runner} "${script}")
+  set_tests_properties(cli.${name} PROPERTIES LABELS cli SKIP_RETURN_CODE 77
+    ENVIRONMENT "${test_environment};PYTHONPATH=${CMAKE_CURRENT_SOURCE_DIR};PYTHONDONTWRITEBYTECODE=1")
+endforeach()
+
+set(check_includes "${CMAKE_CURRENT_SOURCE_DIR}/support/check_includes.py")
+add_test(NAME source.rules COMMAND "${Python3_EXECUTABLE}" "${check_includes}" "${PROJECT_SOURCE_DIR}")
+add_test(NAME source.rules_catch_violations COMMAND "${Python3_EXECUTABLE}" "${check_includes}" --self-test)
+set_tests_properties(source.rules source.rules_catch_violations PROPERTIES LABELS source)
