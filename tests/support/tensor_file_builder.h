@@ -51,7 +51,8 @@ class TensorFileBuilder {
     fields_.push_back(std::move(field));
     return *this;
   }
-  TensorFileBuilder& floats(const std::string& name, std::vector<std::uint64_t> shape, const std::vector<float>& values) {
+  TensorFileBuilder& floats(const std::string& name, std::vector<std::uint64_t> shape,
+                            const std::vector<float>& values) {
     return add({name, 10, std::move(shape), to_bytes(values), std::nullopt});
   }
   TensorFileBuilder& text(const std::string& name, const std::string& value) {

@@ -165,8 +165,8 @@ TEST(MerlLookup, DoesNotChangeWhenBothDirectionsTurn) {
     const Vec3d wi = random_direction(random), wo = random_direction(random);
     std::array<double, 3> f{}, turned{};
     interpolator.eval(wi, wo, f);
-    interpolator.eval({c * wi.x - s * wi.y, s * wi.x + c * wi.y, wi.z}, {c * wo.x - s * wo.y, s * wo.x + c * wo.y, wo.z},
-                      turned);
+    interpolator.eval({c * wi.x - s * wi.y, s * wi.x + c * wi.y, wi.z},
+                      {c * wo.x - s * wo.y, s * wo.x + c * wo.y, wo.z}, turned);
     ASSERT_NEAR(f[0], turned[0], 1e-6);
   }
 }

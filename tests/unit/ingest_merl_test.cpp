@@ -42,9 +42,8 @@ HalfDifferenceTable random_table(int n_phi, unsigned seed) {
 }
 
 TEST(IngestMerl, CellsAndScaleFollowTheLayout) {
-  const auto bytes = test::merl_bytes(180, [](int c, int i, int j, int k) {
-    return i == 3 && j == 5 && k == 7 ? 1500.0 * (c + 1) : 150.0;
-  });
+  const auto bytes = test::merl_bytes(
+      180, [](int c, int i, int j, int k) { return i == 3 && j == 5 && k == 7 ? 1500.0 * (c + 1) : 150.0; });
   const Measurement m = read_measurement(bytes, "folder/gold-paint.binary");
   const HalfDifferenceTable& t = table_of(m);
   EXPECT_EQ(t.n_theta_h, 90);
@@ -84,8 +83,8 @@ TEST(IngestMerl, AnyNegativeOrNonFiniteChannelMasksTheCell) {
 TEST(IngestMerl, FullCircleAndSamplePositionAreKept) {
   IngestOptions options;
   options.position = SamplePosition::centre;
-  const Measurement m = read_measurement(test::merl_bytes(360, [](int, int, int, int k) { return 1500.0 * k; }),
-                                         "full.binary", options);
+  const Measurement m =
+      read_measurement(test::merl_bytes(360, [](int, int, int, int k) { return 1500.0 * k; }), "full.binary", options);
   EXPECT_EQ(table_of(m).n_phi_d, 360);
   EXPECT_TRUE(table_of(m).full_circle);
   EXPECT_EQ(table_of(m).position, SamplePosition::centre);
@@ -162,8 +161,7 @@ TEST(IngestMerlWriter, SamplesAtBinCentresWhenAsked) {
     f[0] = f[1] = f[2] = wi.z;
     return true;
   };
-  const Measurement m =
-      read_measurement(ingest::write_merl(cosine_i, SamplePosition::centre, true), "centre.binary");
+  const Measurement m = read_measurement(ingest::write_merl(cosine_i, SamplePosition::centre, true), "centre.binary");
   EXPECT_EQ(table_of(m).n_phi_d, 360);
   const double theta_h = std::pow(20.5 / 90, 2) * 1.5707963267948966, degree = 0.017453292519943295;
   const double cos_i = std::cos(theta_h) * std::cos(30.5 * degree) -

@@ -56,7 +56,8 @@ TEST(RglLookup, ElevationsAreInterpolatedLinearlyAndClamped) {
     const double share = theta_i / (pi / 3);
     EXPECT_NEAR(eval_cosine(m, pair_at(theta_i, pi / 32, 0))[0], 100 * share + 10.5, 1e-4) << theta_i;
   }
-  EXPECT_NEAR(eval_cosine(m, pair_at(1.3, pi / 32, pi))[0], 100 + 20 + 0.5, 1e-4);  // phi = pi: v = 1 (or 0)
+  // beyond the last elevation; phi = 3 pi / 4: v = 7/8, row 1.75
+  EXPECT_NEAR(eval_cosine(m, pair_at(1.3, pi / 32, 3 * pi / 4))[0], 100 + 17.5 + 0.5, 1e-4);
 }
 
 TEST(RglLookup, AzimuthCountsFromTheLightAndDirectionsMayTurn) {
@@ -86,8 +87,8 @@ TEST(RglLookup, DensitiesOfNeighbouringElevationsAreBlended) {
 TEST(RglLookup, JacobianMultipliesByNdfOverFourSigma) {
   auto file = test::small_rgl_material();
   file.field("jacobian").data = {std::byte{1}};
-  file.set_floats("ndf", {2, 2}, {8, 16, 8, 16});       // along u: 12 at u = 1/2
-  file.set_floats("sigma", {2, 2}, {0.5, 1, 0.5, 1});   // along u_i = sqrt(2 theta_i / pi)
+  file.set_floats("ndf", {2, 2}, {8, 16, 8, 16});      // along u: 12 at u = 1/2
+  file.set_floats("sigma", {2, 2}, {0.5, 1, 0.5, 1});  // along u_i = sqrt(2 theta_i / pi)
   const Measurement m = read(file);
   EXPECT_NEAR(eval_cosine(m, pair_at(0, pi / 8, 0, 0))[0], 11 * 12 / (4 * 0.5), 1e-4);
   // theta_i = pi / 8: u_i = 1/2, sigma = 3/4, elevation share 3/8
@@ -109,8 +110,8 @@ TEST(RglLookup, NegativeValuesAreClippedAfterInterpolationOnly) {
   for (std::size_t k = 0; k < 54; k += 3) values[k] = -1.0f;  // column 0
   file.set_floats("rgb", {1, 2, 3, 3, 3}, values);
   const Measurement m = read(file);
-  EXPECT_NEAR(eval_cosine(m, pair_at(0, pi / 32, 0, 0))[0], 1, 1e-5);                // half way between -1 and 3
-  EXPECT_EQ(eval_cosine(m, pair_at(0, pi / 2 * 0.01, 0, 0))[0], 0);                  // u = 0.1, column 0.2: -0.2
+  EXPECT_NEAR(eval_cosine(m, pair_at(0, pi / 32, 0, 0))[0], 1, 1e-5);  // half way between -1 and 3
+  EXPECT_EQ(eval_cosine(m, pair_at(0, pi / 2 * 0.01, 0, 0))[0], 0);    // u = 0.1, column 0.2: -0.2
 }
 
 TEST(RglLookup, AConstantTableGivesConstantFCosine) {

@@ -40,7 +40,9 @@ TEST(IngestSniff, NothingElseIsKnown) {
   EXPECT_EQ(sniff(test::merl_header({-90, -90, 180}), 100), FileFormat::unknown);
   EXPECT_EQ(sniff(test::merl_header({65536, 65536, 180}), 100), FileFormat::unknown);
   EXPECT_EQ(sniff_text(std::string("tensor_file", 11)), FileFormat::text);  // without its NUL
-  EXPECT_EQ(sniff_text("\x7f" "ELF"), FileFormat::unknown);
+  EXPECT_EQ(sniff_text("\x7f"
+                       "ELF"),
+            FileFormat::unknown);
 }
 
 }  // namespace

@@ -26,8 +26,8 @@ struct Output {
 /// Three channels stay in registers.
 HWY_INLINE void eval_rgb(const Tables& t, const PairVectors& p, V factor, const Output& out) {
   V f[3] = {set(t.lobes.lambert[0]), set(t.lobes.lambert[1]), set(t.lobes.lambert[2])};
-  const V grazing = for_each_lobe(t.lobes, p, [&f](const GgxLobe& g, V plain) HWY_ATTR {
-    for (int c = 0; c < 3; ++c) f[c] = hn::MulAdd(set(g.f0[c]), plain, f[c]);
+  const V grazing = for_each_lobe(t.lobes, p, [&f, &t](std::size_t k, V plain) HWY_ATTR {
+    for (int c = 0; c < 3; ++c) f[c] = hn::MulAdd(set(t.lobes.ggx[k].f0[c]), plain, f[c]);
   });
   for (int c = 0; c < 3; ++c) f[c] = hn::Add(f[c], grazing);
   if (t.grid.ratio) apply_ratio_rgb(t.grid, p, f);
@@ -38,8 +38,8 @@ HWY_INLINE void eval_rgb(const Tables& t, const PairVectors& p, V factor, const 
 /// Any number of channels without a grid.
 HWY_INLINE void eval_lobe_channels(const Tables& t, const PairVectors& p, V factor, const Output& out) {
   V plain[max_ggx_lobes];
-  std::size_t n = 0;
-  const V grazing = for_each_lobe(t.lobes, p, [&plain, &n](const GgxLobe&, V value) HWY_ATTR { plain[n++] = value; });
+  const std::size_t n = t.lobes.ggx.size();
+  const V grazing = for_each_lobe(t.lobes, p, [&plain](std::size_t k, V value) HWY_ATTR { plain[k] = value; });
   for (std::size_t c = 0; c < static_cast<std::size_t>(t.lobes.channels); ++c) {
     V sum = hn::Add(set(t.lobes.lambert[c]), grazing);
     for (std::size_t k = 0; k < n; ++k) sum = hn::MulAdd(set(t.lobes.ggx[k].f0[c]), plain[k], sum);
@@ -69,9 +69,9 @@ HWY_INLINE void eval_eight_channels(const Tables& t, const LaneValues& lane, con
 HWY_INLINE void eval_grid_channels(const Tables& t, const PairVectors& p, V factor, const Output& out) {
   const Floats d;
   HWY_ALIGN float plain[max_ggx_lobes][max_lanes], grazing[max_lanes], factors[max_lanes], valid[max_lanes];
-  std::size_t n = 0;
-  const V bent = for_each_lobe(
-      t.lobes, p, [&plain, &n](const GgxLobe&, V value) HWY_ATTR { hn::Store(value, Floats(), plain[n++]); });
+  const std::size_t n = t.lobes.ggx.size();
+  const V bent =
+      for_each_lobe(t.lobes, p, [&plain](std::size_t k, V value) HWY_ATTR { hn::Store(value, Floats(), plain[k]); });
   hn::Store(bent, d, grazing);
   hn::Store(factor, d, factors);
   hn::Store(hn::IfThenElseZero(p.valid, set(1.0f)), d, valid);

@@ -56,22 +56,17 @@ HWY_INLINE V schlick_weights(V cos_theta_d) {
   return hn::Mul(hn::Mul(m2, m2), m);
 }
 
-/// What the normal distributions of all lobes of one kind share: |s_xy|^2 and |s|^4 / (2 pi).
-struct NdfVectors {
-  V in_plane, numerator;
-};
-
-HWY_INLINE NdfVectors ndf_vectors(V in_plane, V s_z2) {
+/// |s|^4 / (2 pi): what the normal distributions of all lobes with one half vector share.
+HWY_INLINE V ndf_numerator(V in_plane, V s_z2) {
   constexpr float half_inv_pi = static_cast<float>(0.5 * std::numbers::inv_pi);
   const V s2 = hn::Add(in_plane, s_z2);
-  return {in_plane, hn::Mul(hn::Mul(s2, s2), set(half_inv_pi))};
+  return hn::Mul(hn::Mul(s2, s2), set(half_inv_pi));
 }
 
-/// numerator / (denominator^2 divisor) of one lobe.
-HWY_INLINE V guarded_quotient(const GgxLobe& g, const NdfVectors& n, V s_z2, V divisor) {
-  const V den = hn::MulAdd(n.in_plane, set(g.inv_alpha), hn::Mul(s_z2, set(g.alpha)));
-  const V product = hn::Mul(hn::Mul(den, den), divisor);
-  return hn::Mul(n.numerator, reciprocal(hn::Max(product, set(min_denominator))));
+/// 1 / (denominator^2 divisor) of one lobe.
+HWY_INLINE V inverse_guarded(const GgxLobe& g, V in_plane, V s_z2, V divisor) {
+  const V den = hn::MulAdd(in_plane, set(g.inv_alpha), hn::Mul(s_z2, set(g.alpha)));
+  return reciprocal(hn::Max(hn::Mul(hn::Mul(den, den), divisor), set(min_denominator)));
 }
 
 /// sqrt(alpha^2 + (1 - alpha^2) cos^2)
@@ -79,26 +74,30 @@ HWY_INLINE V slope_length(const GgxLobe& g, V cos2) {
   return root(hn::MulAdd(set(g.one_minus_alpha2), cos2, set(g.alpha2)));
 }
 
-/// Calls `each(lobe, plain)` for every GGX lobe: f_c = lambert_c + sum_k f0_kc plain_k + the value returned.
+/// `each(k, plain)` for the lobes from `first` to `last`, which share a half vector; adds to `grazing`.
+template <class Each>
+HWY_INLINE void for_lobes(const LobeParams& lobes, std::size_t first, std::size_t last, const PairVectors& p, V in_plane,
+                          V s, V& grazing, Each&& each) {
+  const V low2 = hn::Mul(p.low, p.low), high2 = hn::Mul(p.high, p.high);
+  const V fresnel = schlick_weights(hn::Mul(s, p.inv_norm)), numerator = ndf_numerator(in_plane, p.s_z2);
+  for (std::size_t k = first; k < last; ++k) {
+    const GgxLobe& g = lobes.ggx[k];
+    const V shadowing = hn::MulAdd(p.low, slope_length(g, high2), hn::Mul(p.high, slope_length(g, low2)));
+    const V value = hn::Mul(numerator, inverse_guarded(g, in_plane, p.s_z2, shadowing));
+    const V bent = hn::Mul(value, fresnel);
+    grazing = hn::MulAdd(set(g.f90), bent, grazing);
+    each(k, hn::Sub(value, bent));
+  }
+}
+
+/// Calls `each(k, plain)` for every GGX lobe: f_c = lambert_c + sum_k f0_kc plain_k + the value returned.
 template <class Each>
 HWY_INLINE V for_each_lobe(const LobeParams& lobes, const PairVectors& p, Each&& each) {
-  const V low2 = hn::Mul(p.low, p.low), high2 = hn::Mul(p.high, p.high);
-  const NdfVectors forward = ndf_vectors(p.s_xy2, p.s_z2);
-  const V forward_fresnel = schlick_weights(hn::Mul(p.s, p.inv_norm));
-  NdfVectors backward = forward;
-  V backward_fresnel = forward_fresnel;
-  if (lobes.any_retro) {
-    backward = ndf_vectors(p.d_xy2, p.s_z2);
-    backward_fresnel = schlick_weights(hn::Mul(root(hn::Add(p.d_xy2, p.s_z2)), p.inv_norm));
-  }
   V grazing = hn::Zero(Floats());
-  for (const GgxLobe& g : lobes.ggx) {
-    const V shadowing = hn::MulAdd(p.low, slope_length(g, high2), hn::Mul(p.high, slope_length(g, low2)));
-    const V value = guarded_quotient(g, g.retro ? backward : forward, p.s_z2, shadowing);
-    const V bent = hn::Mul(value, g.retro ? backward_fresnel : forward_fresnel);
-    grazing = hn::MulAdd(set(g.f90), bent, grazing);
-    each(g, hn::Sub(value, bent));
-  }
+  const std::size_t turn = lobes.forward_count, end = lobes.ggx.size();
+  for_lobes(lobes, 0, turn, p, p.s_xy2, p.s, grazing, each);
+  if (HWY_UNLIKELY(turn < end))
+    for_lobes(lobes, turn, end, p, p.d_xy2, root(hn::Add(p.d_xy2, p.s_z2)), grazing, each);
   return grazing;
 }
 
@@ -120,21 +119,26 @@ HWY_INLINE V mixture_weights(const Mixture::Curve& curve, const BernsteinVectors
   return w;
 }
 
-/// Density of the mixture at cos_i given cos_o; 0 for pairs that are not valid.
-HWY_INLINE V mixture_density(const Tables& t, const PairVectors& p) {
-  const BernsteinVectors basis = bernstein_vectors(p.cos_o);
-  const NdfVectors forward = ndf_vectors(p.s_xy2, p.s_z2);
-  const NdfVectors backward = t.lobes.any_retro ? ndf_vectors(p.d_xy2, p.s_z2) : forward;
-  const V cos_o2 = hn::Mul(p.cos_o, p.cos_o);
-  V rest = set(1.0f), density = hn::Zero(Floats());
-  const std::size_t n = t.lobes.ggx.size();
-  for (std::size_t k = 0; k < n; ++k) {
+/// Adds the densities of the lobes from `first` to `last`, which share a half vector; takes their weights from `rest`.
+HWY_INLINE void add_densities(const Tables& t, std::size_t first, std::size_t last, const PairVectors& p,
+                              const BernsteinVectors& basis, V in_plane, V& rest, V& density) {
+  const V numerator = ndf_numerator(in_plane, p.s_z2), cos_o2 = hn::Mul(p.cos_o, p.cos_o);
+  for (std::size_t k = first; k < last; ++k) {
     const GgxLobe& g = t.lobes.ggx[k];
     const V w = mixture_weights(t.mixture.lobe[k], basis);
     rest = hn::Sub(rest, w);
     const V one_sided = hn::Add(p.cos_o, slope_length(g, cos_o2));
-    density = hn::MulAdd(w, guarded_quotient(g, g.retro ? backward : forward, p.s_z2, one_sided), density);
+    density = hn::MulAdd(hn::Mul(w, numerator), inverse_guarded(g, in_plane, p.s_z2, one_sided), density);
   }
+}
+
+/// Density of the mixture at cos_i given cos_o; 0 for pairs that are not valid.
+HWY_INLINE V mixture_density(const Tables& t, const PairVectors& p) {
+  const BernsteinVectors basis = bernstein_vectors(p.cos_o);
+  V rest = set(1.0f), density = hn::Zero(Floats());
+  const std::size_t turn = t.lobes.forward_count, end = t.lobes.ggx.size();
+  add_densities(t, 0, turn, p, basis, p.s_xy2, rest, density);
+  if (HWY_UNLIKELY(turn < end)) add_densities(t, turn, end, p, basis, p.d_xy2, rest, density);
   const V cosine = hn::Mul(p.cos_i, set(std::numbers::inv_pi_v<float>));
   return hn::IfThenElseZero(p.valid, hn::MulAdd(hn::Max(rest, hn::Zero(Floats())), cosine, density));
 }

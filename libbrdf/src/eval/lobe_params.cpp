@@ -55,11 +55,7 @@ LobeParams::LobeParams(const LobeSet& set) : channels(set.channels) {
   padded_channels = (n + 7) / 8 * 8;
   std::vector<double> diffuse(n, 0.0);
   f0.assign(count * padded_channels, 0.0f);
-  for (const Lobe& lobe : set.lobes) {
-    if (lobe.kind == LobeKind::lambert) {
-      for (std::size_t c = 0; c < n; ++c) diffuse[c] += lobe.color[c] * std::numbers::inv_pi;
-      continue;
-    }
+  const auto add_ggx = [this, n](const Lobe& lobe) {
     const double a = lobe.alpha;
     GgxLobe g;
     g.alpha = static_cast<float>(a);
@@ -68,12 +64,19 @@ LobeParams::LobeParams(const LobeSet& set) : channels(set.channels) {
     g.one_minus_alpha2 = static_cast<float>(1 - a * a);
     g.f90 = static_cast<float>(lobe.f90);
     g.retro = lobe.kind == LobeKind::retro_ggx;
-    any_retro |= g.retro;
     float* colours = f0.data() + ggx.size() * padded_channels;
     for (std::size_t c = 0; c < n; ++c) colours[c] = static_cast<float>(lobe.color[c]);
     g.f0 = colours;
     ggx.push_back(g);
+  };
+  for (const Lobe& lobe : set.lobes) {
+    if (lobe.kind == LobeKind::ggx) add_ggx(lobe);
+    if (lobe.kind == LobeKind::lambert)
+      for (std::size_t c = 0; c < n; ++c) diffuse[c] += lobe.color[c] * std::numbers::inv_pi;
   }
+  forward_count = ggx.size();
+  for (const Lobe& lobe : set.lobes)
+    if (lobe.kind == LobeKind::retro_ggx) add_ggx(lobe);
   for (double c : diffuse) lambert.push_back(static_cast<float>(c));
   lambert.resize(padded_channels, 0.0f);
 }

@@ -26,9 +26,9 @@ struct alignas(64) GgxLobe {
 
 struct LobeParams {
   int channels = 0;
-  std::vector<GgxLobe> ggx;
+  std::vector<GgxLobe> ggx;         ///< reflection lobes first, then retro lobes
+  std::size_t forward_count = 0;    ///< number of reflection lobes
   std::size_t padded_channels = 0;  ///< the next multiple of 8, so that kernels may read whole vectors of colours
-  bool any_retro = false;
   std::vector<float> lambert;  ///< sum of rho / pi, one per padded channel
   std::vector<float> f0;       ///< of all GGX lobes, lobe by lobe
 

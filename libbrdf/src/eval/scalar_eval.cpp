@@ -52,7 +52,7 @@ struct LobeValues {
 inline LobeValues lobe_values(const LobeParams& lobes, const PairTerms& p) noexcept {
   LobeValues v;
   const float forward = schlick_weight(p.s * p.inv_norm);
-  const float backward = lobes.any_retro ? schlick_weight(std::sqrt(p.d_xy2 + p.s_z2) * p.inv_norm) : 0.0f;
+  const float backward = lobes.forward_count < lobes.ggx.size() ? schlick_weight(std::sqrt(p.d_xy2 + p.s_z2) * p.inv_norm) : 0.0f;
   for (std::size_t k = 0; k < lobes.ggx.size(); ++k) {
     const GgxLobe& g = lobes.ggx[k];
     const float value = ggx_value(g, p), fresnel = g.retro ? backward : forward;

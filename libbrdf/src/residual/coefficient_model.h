@@ -8,6 +8,7 @@
 #include <algorithm>
 #include <array>
 #include <bit>
+#include <cmath>
 #include <cstdint>
 #include <cstdlib>
 #include <vector>
@@ -85,6 +86,19 @@ class CoefficientModel {
   }
 
   static constexpr std::int32_t escape = 15;
+
+  /// Bits that `code` would spend now, for rate estimates; magnitude 0 to escape.
+  double cost(bool first_channel, int activity, int radius, std::int32_t magnitude) const {
+    const auto bits = [](const AdaptiveBit& b, bool one) {
+      return -std::log2((one ? b.p1() : 65536U - b.p1()) / 65536.0);
+    };
+    const AdaptiveBit& zero = zero_[first_channel ? 0 : 1][activity][activity < 4 ? radius : 0];
+    if (magnitude == 0) return bits(zero, false);
+    double sum = bits(zero, true) + 1;  // and the sign
+    for (std::int32_t n = 1; n < std::min(magnitude, escape); ++n) sum += bits(more_[activity / 2][std::min(n, 5) - 1], true);
+    if (magnitude < escape) sum += bits(more_[activity / 2][std::min(magnitude, 5) - 1], false);
+    return sum;
+  }
 
  private:
   /// Exponential Golomb code of order 0 for what lies beyond the escape.

@@ -1,0 +1,101 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "encode/candidate.h"
+
+#include "encode/bins.h"
+#include "encode/distortion.h"
+#include "encode/layers.h"
+
+#include <algorithm>
+
+namespace brdf::encode {
+namespace {
+
+constexpr int finest_step = 128;  // 2^-12: below it the table's half floats round more
+
+container::Content frame_of(const Measurement& m, const LobeSet& lobes, bool reciprocal) {
+  container::Content c;
+  c.component.channels = m.channels;
+  c.component.reciprocal = reciprocal;
+  c.component.transform = m.channels.count == 3 ? residual::ChannelTransform::opponent
+                          : m.channels.count == 1 ? residual::ChannelTransform::identity
+                                                  : residual::ChannelTransform::cosine;
+  c.lobes = lobes;
+  return c;
+}
+
+}  // namespace
+
+Encoded lobes_only(const Measurement& m, const LobeSet& lobes) {
+  Encoded e;
+  e.content = frame_of(m, lobes, true);  // lobes are symmetric to the last bit
+  e.bytes = container::pack(e.content);
+  return e;
+}
+
+Candidate::Candidate(const Measurement& m, const LobeSet& lobes, const residual::BasisCodes& codes, bool reciprocal,
+                     const EffortStep& effort, const metrics::QuerySet& queries)
+    : frame_(frame_of(m, lobes, reciprocal)), basis_(codes), reciprocal_(reciprocal), passes_(effort.passes) {
+  const residual::Basis basis = residual::basis_of(codes);
+  const auto order = residual::coefficient_order(residual::order_shapes[codes.shape], reciprocal,
+                                                 static_cast<std::uint32_t>(effort.coefficients));
+  const MetricMix mix;
+  const Bins bins = sample_bins(m, lobes, basis, effort.bins_h, effort.bins_d, effort.bins_p);
+  model_ = cell_model(bins, cell_weights(bins, basis.epsilon, mix), basis, order, frame_.component.transform);
+  if (effort.image_quality > 0)
+    add_environment(model_, m, lobes, queries, basis, order, frame_.component.transform, mix.environment);
+  start_ = solve_coefficients(model_);
+}
+
+Encoded Candidate::encode(int step_code, double lambda_scale, int layers) const {
+  Encoded e;
+  e.content = frame_;
+  e.step_code = step_code;
+  const Quantised q = quantise(model_, start_, basis_, reciprocal_, {residual::step_of(step_code), lambda_scale, passes_});
+  e.error = q.error;
+  e.content.residual = make_layers(q, basis_, reciprocal_, step_code, layers);
+  if (e.content.residual.empty()) e.content.component.reciprocal = true;
+  e.bytes = container::pack(e.content);
+  return e;
+}
+
+Encoded Candidate::encode_to_size(std::uint64_t bytes) const {
+  const int layers = layer_count(bytes);
+  Encoded best;
+  int coarse = 0, fine = finest_step;  // the size grows with the code
+  while (coarse < fine) {
+    const int middle = (coarse + fine + 1) / 2;
+    Encoded e = encode(middle, 1.0, layers);
+    if (e.bytes.size() <= bytes) {
+      coarse = middle;
+      best = std::move(e);
+    } else {
+      fine = middle - 1;
+    }
+  }
+  if (best.bytes.empty()) {
+    best = encode(0, 1.0, layers);
+    if (best.bytes.size() > bytes) best.bytes.clear();
+    return best;
+  }
+  // spend what is left with a finer step and a steeper price, or a lower price at this step
+  const auto consider = [&](Encoded e) {
+    const bool fits = e.bytes.size() <= bytes;
+    if (fits && e.error < best.error) best = std::move(e);
+    return fits;
+  };
+  if (coarse < finest_step) {
+    double low = 1.0, high = 4.0;
+    for (int i = 0; i < 4; ++i) {
+      const double scale = (low + high) / 2;
+      (consider(encode(coarse + 1, scale, layers)) ? high : low) = scale;
+    }
+  }
+  double low = 0.2, high = 1.0;
+  for (int i = 0; i < 4; ++i) {
+    const double scale = (low + high) / 2;
+    (consider(encode(coarse, scale, layers)) ? high : low) = scale;
+  }
+  return best;
+}
+
+}  // namespace brdf::encode

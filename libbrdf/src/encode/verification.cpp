@@ -1,0 +1,32 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "encode/verification.h"
+
+#include <vector>
+
+namespace brdf::encode {
+namespace {
+
+BatchEval reference_rows(const MeasurementInterpolator& reference, int channels) {
+  return [&reference, channels](std::span<const Vec3f> wi, std::span<const Vec3f> wo, std::span<float> out) {
+    const auto n = static_cast<std::size_t>(channels);
+    std::vector<double> f(n);
+    for (std::size_t i = 0; i < wi.size(); ++i) {
+      reference.eval(Vec3d(wi[i]), Vec3d(wo[i]), f);
+      for (std::size_t c = 0; c < n; ++c) out[i * n + c] = static_cast<float>(f[c]);
+    }
+  };
+}
+
+}  // namespace
+
+Verification::Verification(const Measurement& m, double quality, int threads)
+    : reference_(m), comparison_(reference_rows(reference_, m.channels.count), m.channels.count, quality, threads) {}
+
+ErrorReport Verification::score(const Material& material) const {
+  const auto n = static_cast<std::size_t>(material.channels());
+  return comparison_.score([&material, n](std::span<const Vec3f> wi, std::span<const Vec3f> wo, std::span<float> out) {
+    for (std::size_t i = 0; i < wi.size(); ++i) material.eval(wi[i], wo[i], out.subspan(i * n, n));
+  });
+}
+
+}  // namespace brdf::encode

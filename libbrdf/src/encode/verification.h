@@ -1,0 +1,26 @@
+// SPDX-License-Identifier: Apache-2.0
+// The error of a finished file, measured on what a decoder makes of it.
+#pragma once
+
+#include <brdf/material.h>
+#include <brdf/measurement.h>
+#include <brdf/metrics.h>
+
+#include <cstddef>
+#include <span>
+
+namespace brdf::encode {
+
+/// Scores decoded files against one measurement. Single-pair evaluation throughout: the recorded figures must not depend
+/// on the instruction set.
+class Verification {
+ public:
+  Verification(const Measurement& m, double quality, int threads);
+  ErrorReport score(const Material& material) const;
+
+ private:
+  MeasurementInterpolator reference_;
+  Comparison comparison_;
+};
+
+}  // namespace brdf::encode
