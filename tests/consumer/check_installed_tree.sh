@@ -1,7 +1,7 @@
 #!/usr/bin/env bash
 # SPDX-License-Identifier: Apache-2.0
-# Installs a build tree to a fresh prefix and builds an outside program against it, once with find_package and once with
-# pkg-config. Fails when a program needs Ceres at run time or answers wrong values.
+# Installs a build tree to a fresh prefix and builds outside programs against it, once with find_package and once with
+# pkg-config. Fails when a program of brdf::decode needs Ceres at run time, or when one answers wrong values.
 # usage: check_installed_tree.sh BUILD_DIR COMPILER
 set -euo pipefail
 build=$1 compiler=$2
@@ -12,37 +12,51 @@ prefix=$work/prefix
 
 fail() { echo "FAILED: $*"; exit 1; }
 
-check_program() {
-  local program=$1 libraries
-  libraries=$(readelf -d "$program" | grep NEEDED)
+check_decoder() {
+  local libraries
+  libraries=$(readelf -d "$1" | grep NEEDED)
   echo "$libraries"
-  ! grep -qiE 'ceres|glog|tbb' <<<"$libraries" || fail "$program needs the encoder's libraries"
-  LD_LIBRARY_PATH=$libdir${LD_LIBRARY_PATH:+:$LD_LIBRARY_PATH} "$program" || fail "$program"
+  ! grep -qiE 'ceres|glog|tbb' <<<"$libraries" || fail "$1 needs the encoder's libraries"
+  "$1" || fail "$1"
 }
 
 cmake --install "$build" --prefix "$prefix" >"$work/install.log" || { cat "$work/install.log"; fail "install"; }
 libdir=$(dirname "$(find "$prefix" -name 'libbrdf_decode.*' | head -n 1)")
-# Headers that an include can reach must be there, and nothing of the source tree may be named.
+export LD_LIBRARY_PATH=$libdir${LD_LIBRARY_PATH:+:$LD_LIBRARY_PATH}
+encoder=OFF
+[ -z "$(find "$libdir" -maxdepth 1 -name 'libbrdf.*')" ] || encoder=ON
+# The installed files must stand alone.
 [ -f "$prefix/include/brdf/material.h" ] || fail "headers are not installed"
 ! grep -rl "$(cd "$here/../.." && pwd)/libbrdf" "$libdir/cmake" "$libdir/pkgconfig" || fail "the files above name the source tree"
 
 echo "== find_package"
-cmake -S "$here" -B "$work/cmake" -G Ninja -DCMAKE_PREFIX_PATH="$prefix" -DCMAKE_CXX_COMPILER="$compiler" >"$work/log" 2>&1 &&
+cmake -S "$here" -B "$work/cmake" -G Ninja -DCMAKE_PREFIX_PATH="$prefix" -DCMAKE_CXX_COMPILER="$compiler" \
+  -DCONSUME_ENCODER=$encoder >"$work/log" 2>&1 &&
   cmake --build "$work/cmake" >>"$work/log" 2>&1 || { cat "$work/log"; fail "build with find_package"; }
-check_program "$work/cmake/consumer"
+check_decoder "$work/cmake/consumer"
+[ $encoder = OFF ] || "$work/cmake/encoder_consumer" || fail "encoder_consumer"
 
 echo "== pkg-config"
 export PKG_CONFIG_PATH=$libdir/pkgconfig
-flags=$(pkg-config --cflags --libs brdf-decode)
-# shellcheck disable=SC2086  # flags are words
-"$compiler" -std=c++20 -O1 "$here/consumer.cpp" -o "$work/consumer" $flags || fail "build with pkg-config"
-check_program "$work/consumer"
+# build_with PACKAGE PROGRAM
+build_with() {
+  local flags
+  flags=$(pkg-config --cflags --libs "$1")
+  # shellcheck disable=SC2086  # flags are words
+  "$compiler" -std=c++20 -O1 "$here/$2.cpp" -o "$work/$2" $flags || fail "build of $2 with pkg-config"
+}
+build_with brdf-decode consumer
+check_decoder "$work/consumer"
+if [ $encoder = ON ]; then
+  build_with brdf encoder_consumer
+  "$work/encoder_consumer" || fail "encoder_consumer"
+fi
 
 echo "== command line tools"
 for tool in "$build"/bin/*; do
   [ -x "$tool" ] || continue
   installed=$prefix/bin/$(basename "$tool")
   [ -x "$installed" ] || fail "$(basename "$tool") is not installed"
-  LD_LIBRARY_PATH=$libdir "$installed" --help >/dev/null || fail "$(basename "$tool") --help"
+  "$installed" --help >/dev/null || fail "$(basename "$tool") --help"
 done
 echo "all passed"

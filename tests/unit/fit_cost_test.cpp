@@ -69,7 +69,8 @@ TEST(FitCost, JacobianMatchesAutomaticDifferentiation) {
       EXPECT_NEAR(rows[r], e.a, 1e-7);  // the plain form loses digits at small u
       EXPECT_NEAR(rows[r], without[r], 1e-12);
       for (std::size_t k = 0; k < columns; ++k) {
-        EXPECT_NEAR(jacobian[r * columns + k], e.v[static_cast<int>(k)], 1e-6 * (1 + std::abs(e.v[static_cast<int>(k)])));
+        EXPECT_NEAR(jacobian[r * columns + k], e.v[static_cast<int>(k)],
+                    1e-6 * (1 + std::abs(e.v[static_cast<int>(k)])));
       }
     }
     if (HasFailure()) return;
@@ -100,10 +101,10 @@ TEST(FitCost, JacobianMatchesFiniteDifferences) {
 
 TEST(FitCost, VanishesForTheTruth) {
   const PreparedSamples samples = some_samples();
-  const LobeSet truth{3,
-                      {{LobeKind::lambert, 1, 1, {0.1 / samples.scale, 0.2 / samples.scale, 0}},
-                       {LobeKind::ggx, 0.1, 1 / samples.scale,
-                        {0.04 / samples.scale, 0.05 / samples.scale, 0.3 / samples.scale}}}};
+  const LobeSet truth{
+      3,
+      {{LobeKind::lambert, 1, 1, {0.1 / samples.scale, 0.2 / samples.scale, 0}},
+       {LobeKind::ggx, 0.1, 1 / samples.scale, {0.04 / samples.scale, 0.05 / samples.scale, 0.3 / samples.scale}}}};
   EXPECT_LT(mean_loss(samples, layout_of(truth), to_parameters(truth), samples.size()), 1e-10);
 }
 

@@ -9,7 +9,8 @@ namespace brdf::container {
 inline constexpr std::uint8_t format_version = 1;
 
 /// Directory entry: bit 7 = optional (may be skipped), bits 6..4 = component, bits 3..0 = type.
-enum class ChunkType : std::uint8_t { lobes = 1, residual = 2, refinement = 3, provenance = 9 };
+/// The whole code counts: an optional chunk of a later version may reuse the number of a critical one.
+enum class ChunkType : std::uint8_t { lobes = 0x01, residual = 0x02, refinement = 0x03, provenance = 0x89 };
 inline constexpr std::uint8_t optional_bit = 0x80;
 
 /// What the axes of a component's table are.

@@ -9,6 +9,7 @@ namespace {
 
 constexpr int amplitude_bits = 11, alpha_bits = 11;
 constexpr std::uint32_t largest_code = 2047;
+constexpr int largest_exponent = 99;  // 6e29: products of lobes and ratios stay finite floats
 constexpr double alpha_octaves = 16.6096404744368;  // log2(1 / 1e-5)
 
 double amplitude_of(std::uint32_t code, int exponent) noexcept {
@@ -26,14 +27,12 @@ bool has_microfacets(LobeKind kind) noexcept { return kind != LobeKind::lambert;
 }  // namespace
 
 void write_lobes(BitWriter& out, const LobeSet& set) {
-  if (set.lobes.size() > 15)
-    throw Error(ErrorCode::invalid_argument, "a file holds at most 15 lobes, not " + std::to_string(set.lobes.size()));
   double largest = 0;
   for (const Lobe& lobe : set.lobes) {
     if (has_microfacets(lobe.kind)) largest = std::max(largest, lobe.f90);
     for (const double c : lobe.color) largest = std::max(largest, c);
   }
-  const int exponent = largest > 0 ? std::clamp(static_cast<int>(std::ceil(std::log2(largest))), -128, 127) : 0;
+  const int exponent = largest > 0 ? std::clamp(static_cast<int>(std::ceil(std::log2(largest))), -128, largest_exponent) : 0;
   out.put(static_cast<std::uint32_t>(set.lobes.size()), 4);
   out.put(static_cast<std::uint32_t>(exponent + 128), 8);
   for (const Lobe& lobe : set.lobes) {
@@ -55,6 +54,9 @@ LobeSet read_lobes(BitReader& in, int channels, std::uint32_t max_lobes) {
     throw Error(ErrorCode::limit_exceeded,
                 "lobes: " + std::to_string(count) + " are stored, the limit is " + std::to_string(max_lobes));
   const int exponent = static_cast<int>(in.get(8)) - 128;
+  if (exponent > largest_exponent)
+    throw Error(ErrorCode::malformed, "lobes: amplitudes up to 2^" + std::to_string(exponent) + " are declared, at most 2^" +
+                                          std::to_string(largest_exponent) + " are allowed");
   for (std::uint32_t i = 0; i < count; ++i) {
     Lobe lobe;
     const std::uint32_t kind = in.get(3);

@@ -6,6 +6,7 @@
 #include "container/header.h"
 #include "container/lobe_codes.h"
 #include "container/residual_chunk.h"
+#include "container/validate_content.h"
 #include "container/varint.h"
 #include "residual/layer_codec.h"
 
@@ -47,6 +48,7 @@ std::vector<std::byte> provenance_payload(const Content& content) {
 }  // namespace
 
 std::vector<std::byte> pack(const Content& content) {
+  validate(content);
   std::vector<std::vector<std::byte>> payloads;
   std::vector<DirectoryEntry> directory;
   const auto add = [&](std::uint8_t code, std::vector<std::byte> payload) {
@@ -81,7 +83,7 @@ std::vector<std::byte> pack(const Content& content) {
       before = &code.layers[i];
     }
   }
-  if (content.provenance) add(static_cast<std::uint8_t>(ChunkType::provenance) | optional_bit, provenance_payload(content));
+  if (content.provenance) add(static_cast<std::uint8_t>(ChunkType::provenance), provenance_payload(content));
 
   std::vector<std::byte> out = write_header(content.component, directory);
   // the chain starts with the checksum of the header and goes on from chunk to chunk

@@ -32,6 +32,9 @@ inline residual::BasisCodes read_basis(BitReader& in, std::uint32_t& count) {
   if (count > residual::max_coefficients)
     throw Error(ErrorCode::malformed, "residual: " + std::to_string(count) + " coefficients are declared, at most " +
                                           std::to_string(residual::max_coefficients) + " are allowed");
+  if (b.epsilon > residual::largest_epsilon_code)
+    throw Error(ErrorCode::malformed, "residual: epsilon code " + std::to_string(b.epsilon) + ", at most " +
+                                          std::to_string(residual::largest_epsilon_code) + " is allowed");
   if (in.get(5) != 0) throw Error(ErrorCode::malformed, "residual: reserved bits are set");
   return b;
 }

@@ -37,14 +37,14 @@ void read_provenance(std::span<const std::byte> payload, Content& content) {
   content.provenance = std::move(p);
 }
 
-std::string kind_name(std::uint8_t type) {
-  switch (static_cast<ChunkType>(type)) {
+std::string kind_name(std::uint8_t code) {
+  switch (static_cast<ChunkType>(code)) {
     case ChunkType::lobes: return "lobes";
     case ChunkType::residual: return "residual";
     case ChunkType::refinement: return "refinement";
     case ChunkType::provenance: return "provenance";
   }
-  return "type " + std::to_string(type);
+  return "type " + std::to_string(code);
 }
 
 /// Reads chunks in file order; what was learnt from one layer goes on to the next.
@@ -53,16 +53,14 @@ class ChunkReader {
   ChunkReader(Unpacked& out, const DecodeLimits& limits) : out_(out), limits_(limits) {}
 
   void read(std::uint8_t code, std::span<const std::byte> payload) {
-    const std::uint8_t type = code & 0x0FU;
-    if ((code & 0x70U) != 0) throw Error(ErrorCode::unsupported, "chunk: it belongs to component " + std::to_string((code >> 4) & 7U) + ", which is not declared");
-    switch (static_cast<ChunkType>(type)) {
+    switch (static_cast<ChunkType>(code)) {
       case ChunkType::lobes: return lobes(payload);
       case ChunkType::residual: return residual(payload);
       case ChunkType::refinement: return refinement(payload);
       case ChunkType::provenance: return read_provenance(payload, out_.content);
     }
     if ((code & optional_bit) == 0)
-      throw Error(ErrorCode::unsupported, "chunk: critical " + kind_name(type) + " is not known to this version");
+      throw Error(ErrorCode::unsupported, "chunk: critical " + kind_name(code) + " is not known to this version");
   }
 
  private:
@@ -84,6 +82,7 @@ class ChunkReader {
     code.basis = read_basis(bits, count_);
     code.reciprocal = out_.content.component.reciprocal;
     code.channels = out_.content.component.channels.count;
+    spend(count_);  // the field of magnitudes
     codec_.emplace(code.basis, code.reciprocal, code.channels, count_);
     layer(bits.rest());
   }
@@ -102,19 +101,29 @@ class ChunkReader {
   void layer(std::span<const std::byte> bytes) {
     auto& layers = out_.content.residual.layers;
     const residual::Layer* before = layers.empty() ? nullptr : &layers.back();
+    spend(count_);
     layers.push_back(residual::decode_layer(*codec_, before, bytes, static_cast<std::size_t>(out_.content.residual.channels), count_));
     ++out_.refinements_read;
+  }
+
+  /// Counts what `coefficients` of every channel may cost in memory before any of it is allocated.
+  void spend(std::uint64_t coefficients) {
+    spent_ += coefficients * static_cast<std::uint64_t>(out_.content.component.channels.count) * sizeof(std::int32_t);
+    if (spent_ > limits_.max_table_bytes)
+      throw Error(ErrorCode::limit_exceeded, "residual: its coefficients need up to " + std::to_string(spent_) +
+                                                 " bytes, the limit is " + std::to_string(limits_.max_table_bytes));
   }
 
   Unpacked& out_;
   const DecodeLimits& limits_;
   bool have_lobes_ = false;
   std::uint32_t count_ = 0;
+  std::uint64_t spent_ = 0;
   std::optional<residual::LayerCodec> codec_;
 };
 
 bool is_layer(std::uint8_t code) noexcept {
-  const auto type = static_cast<ChunkType>(code & 0x0FU);
+  const auto type = static_cast<ChunkType>(code);
   return type == ChunkType::residual || type == ChunkType::refinement;
 }
 
@@ -126,7 +135,7 @@ std::vector<std::uint64_t> boundaries(std::span<const std::byte> bytes, const De
   std::uint64_t at = header.header_bytes;
   for (const DirectoryEntry& e : header.directory) {
     at += e.length + checksum_bytes;
-    if (is_layer(e.code) || static_cast<ChunkType>(e.code & 0x0FU) == ChunkType::lobes) ends.push_back(at);
+    if (is_layer(e.code) || static_cast<ChunkType>(e.code) == ChunkType::lobes) ends.push_back(at);
   }
   return ends;
 }
@@ -149,12 +158,12 @@ Unpacked unpack(std::span<const std::byte> bytes, const DecodeLimits& limits, bo
     if (at == bytes.size() && at > header.header_bytes) break;  // cut exactly at a boundary
     if (bytes.size() - at < e.length + checksum_bytes)
       throw Error(ErrorCode::truncated, ".brdfc file: " + std::to_string(bytes.size()) + " bytes end within the " +
-                                            kind_name(e.code & 0x0FU) + " chunk, which ends at byte " +
+                                            kind_name(e.code) + " chunk, which ends at byte " +
                                             std::to_string(at + e.length + checksum_bytes));
     const std::span<const std::byte> payload = bytes.subspan(at, e.length);
     checksum = chain(payload, checksum);
     if (base::load_little_endian<std::uint32_t>(bytes.subspan(at + e.length, checksum_bytes)) != checksum)
-      throw Error(ErrorCode::checksum, ".brdfc file: checksum of the " + kind_name(e.code & 0x0FU) + " chunk does not match, the file is damaged");
+      throw Error(ErrorCode::checksum, ".brdfc file: checksum of the " + kind_name(e.code) + " chunk does not match, the file is damaged");
     reader.read(e.code, payload);
     at += e.length + checksum_bytes;
   }

@@ -37,7 +37,7 @@ std::vector<residual::BasisCodes> basis_variants(const LobeSet& lobes, double ep
   usual.window_h = static_cast<std::uint8_t>(residual::window_code(std::clamp(alpha, 0.03, 0.6)));
   usual.window_d = static_cast<std::uint8_t>(residual::window_code(0.25));
   usual.epsilon = static_cast<std::uint8_t>(residual::epsilon_code(epsilon));
-  usual.shape = 0;
+  usual.shape = 2;
 
   std::vector<residual::BasisCodes> out{usual};
   const auto add = [&](int kappa_h, int window_h, int shape, int kappa_d, int window_d) {
@@ -49,12 +49,12 @@ std::vector<residual::BasisCodes> basis_variants(const LobeSet& lobes, double ep
     v.shape = static_cast<std::uint8_t>(shape);
     out.push_back(v);
   };
-  add(3, 1, 0, 0, 0);
-  add(-3, -1, 0, 0, 0);
-  add(0, 2, 0, 0, 0);
-  add(0, 0, 2, 0, 0);
-  add(6, 3, 0, 0, 0);
-  add(0, 0, 0, -3, 0);
+  add(3, 1, 2, 0, 0);
+  add(-3, -1, 2, 0, 0);
+  add(0, 2, 2, 0, 0);
+  add(0, 0, 0, 0, 0);
+  add(6, 3, 2, 0, 0);
+  add(0, 0, 2, -3, 0);
   add(0, -2, 5, 0, 0);
   add(3, 3, 4, 0, 2);
   add(-5, 0, 6, 0, 0);

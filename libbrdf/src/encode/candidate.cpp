@@ -5,6 +5,8 @@
 #include "encode/distortion.h"
 #include "encode/layers.h"
 
+#include <brdf/version.h>
+
 #include <algorithm>
 
 namespace brdf::encode {
@@ -12,29 +14,34 @@ namespace {
 
 constexpr int finest_step = 128;  // 2^-12: below it the table's half floats round more
 
-container::Content frame_of(const Measurement& m, const LobeSet& lobes, bool reciprocal) {
+}  // namespace
+
+container::Content frame_of(const Measurement& m, const LobeSet& lobes, bool store_provenance) {
   container::Content c;
   c.component.channels = m.channels;
-  c.component.reciprocal = reciprocal;
+  c.component.reciprocal = true;  // lobes are symmetric to the last bit
   c.component.transform = m.channels.count == 3 ? residual::ChannelTransform::opponent
                           : m.channels.count == 1 ? residual::ChannelTransform::identity
                                                   : residual::ChannelTransform::cosine;
   c.lobes = lobes;
+  if (store_provenance) {
+    c.provenance = m.provenance;
+    c.fitter = std::string("libbrdf ") + version();
+  }
   return c;
 }
 
-}  // namespace
-
-Encoded lobes_only(const Measurement& m, const LobeSet& lobes) {
+Encoded lobes_only(const container::Content& frame) {
   Encoded e;
-  e.content = frame_of(m, lobes, true);  // lobes are symmetric to the last bit
+  e.content = frame;
   e.bytes = container::pack(e.content);
   return e;
 }
 
-Candidate::Candidate(const Measurement& m, const LobeSet& lobes, const residual::BasisCodes& codes, bool reciprocal,
-                     const EffortStep& effort, const metrics::QuerySet& queries)
-    : frame_(frame_of(m, lobes, reciprocal)), basis_(codes), reciprocal_(reciprocal), passes_(effort.passes) {
+Candidate::Candidate(const Measurement& m, const container::Content& frame, const residual::BasisCodes& codes,
+                     bool reciprocal, const EffortStep& effort, const metrics::QuerySet& queries)
+    : frame_(frame), basis_(codes), reciprocal_(reciprocal), passes_(effort.passes) {
+  const LobeSet& lobes = frame.lobes;
   const residual::Basis basis = residual::basis_of(codes);
   const auto order = residual::coefficient_order(residual::order_shapes[codes.shape], reciprocal,
                                                  static_cast<std::uint32_t>(effort.coefficients));
@@ -53,7 +60,7 @@ Encoded Candidate::encode(int step_code, double lambda_scale, int layers) const 
   const Quantised q = quantise(model_, start_, basis_, reciprocal_, {residual::step_of(step_code), lambda_scale, passes_});
   e.error = q.error;
   e.content.residual = make_layers(q, basis_, reciprocal_, step_code, layers);
-  if (e.content.residual.empty()) e.content.component.reciprocal = true;
+  e.content.component.reciprocal = reciprocal_ || e.content.residual.empty();
   e.bytes = container::pack(e.content);
   return e;
 }

@@ -22,7 +22,8 @@ struct Encoded {
 
 class Candidate {
  public:
-  Candidate(const Measurement& m, const LobeSet& lobes, const residual::BasisCodes& basis, bool reciprocal,
+  /// `frame`: all that a file says but its residual.
+  Candidate(const Measurement& m, const container::Content& frame, const residual::BasisCodes& basis, bool reciprocal,
             const EffortStep& effort, const metrics::QuerySet& queries);
 
   /// Quantised with one step.
@@ -33,7 +34,7 @@ class Candidate {
   Encoded encode_to_size(std::uint64_t bytes) const;
 
  private:
-  container::Content frame_;  ///< all but the residual
+  container::Content frame_;
   residual::BasisCodes basis_;
   bool reciprocal_;
   int passes_;
@@ -41,7 +42,10 @@ class Candidate {
   std::vector<std::vector<double>> start_;
 };
 
+/// All that a file says but its residual; `store_provenance` adds where it comes from.
+container::Content frame_of(const Measurement& m, const LobeSet& lobes, bool store_provenance);
+
 /// The file without any residual.
-Encoded lobes_only(const Measurement& m, const LobeSet& lobes);
+Encoded lobes_only(const container::Content& frame);
 
 }  // namespace brdf::encode

@@ -8,7 +8,6 @@
 
 #include <brdf/encode.h>
 #include <brdf/error.h>
-#include <brdf/version.h>
 
 #include <chrono>
 #include <cstdio>
@@ -55,7 +54,7 @@ FitOptions fit_options(const EffortStep& effort, int threads) {
 }
 
 /// Measures every refinement at its levels and writes the figures into the content.
-void record_errors(Encoded& e, const encode::Verification& verification, const EncodeOptions& options) {
+void record_errors(Encoded& e, const encode::Verification& verification) {
   DecodeOptions decode;
   decode.allow_prefix = true;
   const std::vector<std::uint64_t> ends = container::boundaries(e.bytes, decode.limits);
@@ -74,7 +73,6 @@ void record_errors(Encoded& e, const encode::Verification& verification, const E
       record(EvalLevel::exact);
     }
   }
-  static_cast<void>(options);
   e.bytes = container::pack(e.content);
 }
 
@@ -122,7 +120,8 @@ EncodeResult compress(const Measurement& m, const EncodeOptions& options, const 
   stages.at("residual", 0.35);
   start = Clock::now();
   const bool reciprocal = is_reciprocal(m, options.reciprocity);
-  Encoded best = encode::lobes_only(m, lobes);
+  const container::Content frame = encode::frame_of(m, lobes, options.store_provenance);
+  Encoded best = encode::lobes_only(frame);
   const std::uint64_t lobe_file = best.bytes.size();
   const std::uint64_t size = options.target_size.value_or(usual_size);
   metrics::QuerySet queries;
@@ -132,14 +131,14 @@ EncodeResult compress(const Measurement& m, const EncodeOptions& options, const 
 
   if (options.target_error) {
     verification.emplace(m, effort.verify_quality, options.threads);
-    best = encode::encode_to_error(m, lobes, encode::basis_variants(lobes, epsilon, 1).front(), reciprocal, effort, queries,
+    best = encode::encode_to_error(m, frame, encode::basis_variants(lobes, epsilon, 1).front(), reciprocal, effort, queries,
                                    *options.target_error, options.level, *verification);
   } else if (lobe_file > size) {
     // fewer lobes may still fit
     FitOptions one = fit_options(effort, options.threads);
     one.max_lobes = 1;
     FitResult smaller = fit_lobes(m, one);
-    best = encode::lobes_only(m, container::quantise_lobes(smaller.lobes));
+    best = encode::lobes_only(encode::frame_of(m, container::quantise_lobes(smaller.lobes), options.store_provenance));
     if (best.bytes.size() > size)
       throw Error(ErrorCode::target_not_met, "compress: " + std::to_string(size) + " bytes cannot hold this material, the smallest file has " +
                                                  std::to_string(best.bytes.size()) + " bytes");
@@ -150,7 +149,7 @@ EncodeResult compress(const Measurement& m, const EncodeOptions& options, const 
     bool have = false;
     for (std::size_t i = 0; i < variants.size(); ++i) {
       stages.at("residual", 0.35 + 0.5 * static_cast<double>(i) / static_cast<double>(variants.size()));
-      const Candidate candidate(m, lobes, variants[i], reciprocal, effort, queries);
+      const Candidate candidate(m, frame, variants[i], reciprocal, effort, queries);
       Encoded e = candidate.encode_to_size(size);
       if (e.bytes.empty() || (have && e.error >= error)) continue;
       error = e.error;
@@ -162,13 +161,8 @@ EncodeResult compress(const Measurement& m, const EncodeOptions& options, const 
 
   stages.at("verify", 0.85);
   start = Clock::now();
-  if (options.store_provenance) {
-    best.content.provenance = m.provenance;
-    best.content.fitter = std::string("libbrdf ") + version();
-    best.bytes = container::pack(best.content);
-  }
   if (!verification) verification.emplace(m, effort.verify_quality, options.threads);
-  record_errors(best, *verification, options);
+  record_errors(best, *verification);
   summary.seconds_verify = seconds_since(start);
 
   summary.bytes = best.bytes.size();

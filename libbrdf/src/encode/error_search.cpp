@@ -10,8 +10,8 @@
 
 namespace brdf::encode {
 
-Encoded encode_to_error(const Measurement& m, const LobeSet& lobes, const residual::BasisCodes& basis, bool reciprocal,
-                        const EffortStep& effort, const metrics::QuerySet& queries, const ErrorTarget& target,
+Encoded encode_to_error(const Measurement& m, const container::Content& frame, const residual::BasisCodes& basis,
+                        bool reciprocal, const EffortStep& effort, const metrics::QuerySet& queries, const ErrorTarget& target,
                         EvalLevel level, const Verification& verification) {
   DecodeOptions decode;
   decode.level = level;
@@ -23,14 +23,14 @@ Encoded encode_to_error(const Measurement& m, const LobeSet& lobes, const residu
     if (!best_value || (larger_is_better ? v > *best_value : v < *best_value)) best_value = v;
     return r.meets(target);
   };
-  Encoded alone = lobes_only(m, lobes);
+  Encoded alone = lobes_only(frame);
   if (meets(alone)) return alone;
 
   // more candidates for finer targets; the first set that reaches the target is searched for its coarsest step
   EffortStep step = effort;
   constexpr int coarsest = 24, finest = 112;
   for (int round = 0; round < 2; ++round, step.coefficients *= 2) {
-    const Candidate candidate(m, lobes, basis, reciprocal, step, queries);
+    const Candidate candidate(m, frame, basis, reciprocal, step, queries);
     const auto encode_at = [&](int code) {
       Encoded e = candidate.encode(code, 1.0, 1);
       const int layers = layer_count(e.bytes.size());

@@ -6,6 +6,7 @@
 namespace brdf::encode {
 
 std::vector<std::vector<double>> solve_coefficients(const ErrorModel& model) {
+  // a start that leans towards zero: descent then rarely has to take coefficients back
   constexpr double ridge = 1e-3;
   const auto n = static_cast<Eigen::Index>(model.size);
   Eigen::MatrixXd g = Eigen::Map<const Eigen::MatrixXd>(model.gram.data(), n, n);

@@ -16,27 +16,33 @@
 HWY_BEFORE_NAMESPACE();
 namespace brdf::eval::HWY_NAMESPACE {
 
-template <bool with_f, bool with_pdf>
-HWY_INLINE void run(const Tables& t, const DirectionSpan& wi, const DirectionSpan& wo, PlanarSpan f, float* pdf) {
-  const std::size_t lanes = hn::Lanes(Floats());
-  for (std::size_t i = 0; i < wi.size; i += lanes) {
-    const std::size_t count = HWY_MIN(lanes, wi.size - i);
-    const PairVectors p = pair_vectors(load_directions(wi, i, count), load_directions(wo, i, count));
-    if constexpr (with_f) eval_pairs(t, p, set(1.0f), {f, i, count});
+/// Pairs that the caller gives, with their density on the way.
+template <bool with_pdf>
+struct GivenPairs {
+  const Tables& t;
+  const DirectionSpan &wi, &wo;
+  float* pdf;
+  HWY_INLINE V operator()(std::size_t i, std::size_t count, PairVectors& p) const {
+    p = pair_vectors(load_directions(wi, i, count), load_directions(wo, i, count));
     if constexpr (with_pdf) store_first(mixture_density(t, p), pdf + i, count);
+    return set(1.0f);
   }
-}
+};
 
 void run_eval(const Tables& t, const DirectionSpan& wi, const DirectionSpan& wo, PlanarSpan f) {
-  run<true, false>(t, wi, wo, f, nullptr);
+  eval_pairs(t, wi.size, f, GivenPairs<false>{t, wi, wo, nullptr});
 }
 
 void run_pdf(const Tables& t, const DirectionSpan& wi, const DirectionSpan& wo, float* pdf) {
-  run<false, true>(t, wi, wo, {}, pdf);
+  const std::size_t lanes = hn::Lanes(Floats());
+  for (std::size_t i = 0; i < wi.size; i += lanes) {
+    PairVectors p;
+    GivenPairs<true>{t, wi, wo, pdf}(i, HWY_MIN(lanes, wi.size - i), p);
+  }
 }
 
 void run_eval_pdf(const Tables& t, const DirectionSpan& wi, const DirectionSpan& wo, PlanarSpan f, float* pdf) {
-  run<true, true>(t, wi, wo, f, pdf);
+  eval_pairs(t, wi.size, f, GivenPairs<true>{t, wi, wo, pdf});
 }
 
 }  // namespace brdf::eval::HWY_NAMESPACE

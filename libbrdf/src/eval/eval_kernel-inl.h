@@ -23,16 +23,57 @@ struct Output {
   HWY_INLINE float* channel(std::size_t c) const { return planes.data + c * planes.stride + at; }
 };
 
-/// Three channels stay in registers.
-HWY_INLINE void eval_rgb(const Tables& t, const PairVectors& p, V factor, const Output& out) {
-  V f[3] = {set(t.lobes.lambert[0]), set(t.lobes.lambert[1]), set(t.lobes.lambert[2])};
-  const V grazing = for_each_lobe(t.lobes, p, [&f, &t](std::size_t k, V plain) HWY_ATTR {
-    for (int c = 0; c < 3; ++c) f[c] = hn::MulAdd(set(t.lobes.ggx[k].f0[c]), plain, f[c]);
+/// Three channels of the lobes.
+HWY_INLINE void lobes_rgb(const LobeParams& lobes, const PairVectors& p, V f[3]) {
+  for (std::size_t c = 0; c < 3; ++c) f[c] = set(lobes.lambert[c]);
+  const V grazing = for_each_lobe(lobes, p, [&lobes, f](std::size_t k, V plain) HWY_ATTR {
+    for (int c = 0; c < 3; ++c) f[c] = hn::MulAdd(set(lobes.ggx[k].f0[c]), plain, f[c]);
   });
   for (int c = 0; c < 3; ++c) f[c] = hn::Add(f[c], grazing);
-  if (t.grid.ratio) apply_ratio_rgb(t.grid, p, f);
+}
+
+HWY_INLINE void eval_lobes_rgb(const Tables& t, const PairVectors& p, V factor, const Output& out) {
+  V f[3];
+  lobes_rgb(t.lobes, p, f);
   for (std::size_t c = 0; c < 3; ++c)
     store_first(hn::IfThenElseZero(p.valid, hn::Mul(f[c], factor)), out.channel(c), out.count);
+}
+
+/// What a block of pairs keeps between the passes over it.
+struct BlockRgb {
+  GridRows rows;
+  HWY_ALIGN float lobes[3][block_pairs];
+  HWY_ALIGN float factor[block_pairs];  ///< negative: not valid
+  HWY_ALIGN float ratio[4 * block_pairs];
+};
+
+/// First pass, vector by vector.
+HWY_INLINE void begin_rgb(const Tables& t, const PairVectors& p, V factor, BlockRgb& block, std::size_t at) {
+  const Floats d;
+  V f[3];
+  lobes_rgb(t.lobes, p, f);
+  for (std::size_t c = 0; c < 3; ++c) hn::Store(f[c], d, block.lobes[c] + at);
+  hn::Store(hn::IfThenElse(p.valid, factor, set(-1.0f)), d, block.factor + at);
+  grid_rows(t.grid, p, block.rows, at);
+}
+
+/// Second pass, pair by pair, and third pass, vector by vector.
+HWY_INLINE void finish_rgb(const GridParams& g, BlockRgb& block, const Output& out) {
+  const Floats d;
+  for (std::size_t i = 0; i < out.count; ++i)
+    lerp_rgb(rows_of_pair(g, block.rows, i, 0), block.rows.fraction_p[i], block.ratio + 4 * i);
+  const V epsilon = set(g.epsilon);
+  const std::size_t lanes = hn::Lanes(d);
+  for (std::size_t at = 0; at < out.count; at += lanes) {
+    V r[4];
+    hn::LoadInterleaved4(d, block.ratio + 4 * at, r[0], r[1], r[2], r[3]);
+    const V factor = hn::Load(d, block.factor + at);
+    const auto valid = hn::Ge(factor, hn::Zero(d));
+    for (std::size_t c = 0; c < 3; ++c) {
+      const V f = with_ratio(hn::Load(d, block.lobes[c] + at), r[c], epsilon);
+      store_first(hn::IfThenElseZero(valid, hn::Mul(f, factor)), out.channel(c) + at, std::min(lanes, out.count - at));
+    }
+  }
 }
 
 /// Any number of channels without a grid.
@@ -47,61 +88,70 @@ HWY_INLINE void eval_lobe_channels(const Tables& t, const PairVectors& p, V fact
   }
 }
 
-/// Eight channels of one pair, from `first` on: lobes and ratio.
-struct LaneValues {
-  const float* plain;  ///< of each lobe
-  float grazing, factor, fraction_p;
-};
-
-HWY_INLINE void eval_eight_channels(const Tables& t, const LaneValues& lane, const float* below, const float* above,
-                                    std::size_t first, float* HWY_RESTRICT f) {
-  for (std::size_t c = 0; c < 8; ++c) f[c] = t.lobes.lambert[first + c] + lane.grazing;
-  for (std::size_t k = 0; k < t.lobes.ggx.size(); ++k)
-    for (std::size_t c = 0; c < 8; ++c) f[c] += t.lobes.ggx[k].f0[first + c] * lane.plain[k];
-  const float epsilon = t.grid.epsilon;
-  for (std::size_t c = 0; c < 8; ++c) {
-    const float ratio = below[c] + lane.fraction_p * (above[c] - below[c]);
-    f[c] = lane.factor * std::max((f[c] + epsilon) * ratio - epsilon, 0.0f);
-  }
-}
-
-/// Any number of channels with a grid: pair by pair, vectors run along the channels.
+/// Any number of channels with a grid: vectors run along eight channels of one pair, and a tile of eight channels by one
+/// vector of pairs goes out together, so that stores to far planes come in whole vectors.
 HWY_INLINE void eval_grid_channels(const Tables& t, const PairVectors& p, V factor, const Output& out) {
   const Floats d;
-  HWY_ALIGN float plain[max_ggx_lobes][max_lanes], grazing[max_lanes], factors[max_lanes], valid[max_lanes];
-  const std::size_t n = t.lobes.ggx.size();
+  HWY_ALIGN float plain[max_ggx_lobes][max_lanes], grazing[max_lanes];
   const V bent =
       for_each_lobe(t.lobes, p, [&plain](std::size_t k, V value) HWY_ATTR { hn::Store(value, Floats(), plain[k]); });
   hn::Store(bent, d, grazing);
-  hn::Store(factor, d, factors);
-  hn::Store(hn::IfThenElseZero(p.valid, set(1.0f)), d, valid);
   GridRows rows;
-  grid_rows(t.grid, p, rows);
+  grid_rows(t.grid, p, rows, 0);
   const auto channels = static_cast<std::size_t>(t.lobes.channels);
-  for (std::size_t i = 0; i < out.count; ++i) {
-    float lobe_values[max_ggx_lobes];
-    for (std::size_t k = 0; k < n; ++k) lobe_values[k] = plain[k][i];
-    const LaneValues lane{lobe_values, grazing[i], factors[i], rows.fraction_p[i]};
-    for (std::size_t first = 0; first < channels; first += 8) {
-      HWY_ALIGN float below[8], above[8], f[8];
-      const auto at = static_cast<std::ptrdiff_t>(first);
-      store_eight(rows_of_lane(t.grid, rows, i, at), below);
-      store_eight(rows_of_lane(t.grid, rows, i, at + t.grid.step_p), above);
-      eval_eight_channels(t, lane, below, above, first, f);
-      const std::size_t last = std::min(channels - first, std::size_t{8});
-      for (std::size_t c = 0; c < last; ++c) out.channel(first + c)[i] = valid[i] > 0 ? f[c] : 0.0f;
+  const std::size_t n = t.lobes.ggx.size();
+  HWY_ALIGN float tile[8][max_lanes] = {};
+  for (std::size_t first = 0; first < channels; first += 8) {
+    const auto at = static_cast<std::ptrdiff_t>(first);
+    for (std::size_t i = 0; i < out.count; ++i) {
+      const EightFloats below = rows_of_pair(t.grid, rows, i, at);
+      const EightFloats above = rows_of_pair(t.grid, rows, i, at + t.grid.step_p);
+      const EightFloats ratio = add_scaled(below, rows.fraction_p[i], subtract(above, below));
+      EightFloats f = load_eight(t.lobes.lambert.data() + first, grazing[i]);
+      for (std::size_t k = 0; k < n; ++k) f = add_scaled(f, plain[k][i], load_eight(t.lobes.ggx[k].f0 + first, 0.0f));
+      float values[8];
+      store_eight(with_ratio(f, ratio, t.grid.epsilon), values);
+      for (std::size_t c = 0; c < 8; ++c) tile[c][i] = values[c];
     }
+    for (std::size_t c = 0; c < std::min(channels - first, std::size_t{8}); ++c)
+      store_first(hn::IfThenElseZero(p.valid, hn::Mul(hn::Load(d, tile[c]), factor)), out.channel(first + c), out.count);
   }
-}
-
-HWY_INLINE void eval_pairs(const Tables& t, const PairVectors& p, V factor, const Output& out) {
-  if (HWY_LIKELY(t.lobes.channels == 3)) return eval_rgb(t, p, factor, out);
-  if (t.grid.ratio) return eval_grid_channels(t, p, factor, out);
-  eval_lobe_channels(t, p, factor, out);
 }
 
 HWY_INLINE Directions load_directions(const DirectionSpan& w, std::size_t at, std::size_t count) {
   return {load_first(w.x + at, count), load_first(w.y + at, count), load_first(w.z + at, count)};
+}
+
+/// f times a factor for `n` pairs. `next(i, count, p)` makes the pairs from i on, at most one vector of them, and returns
+/// their factor, not negative.
+template <class Next>
+HWY_INLINE void eval_pairs(const Tables& t, std::size_t n, PlanarSpan planes, const Next& next) {
+  const std::size_t lanes = hn::Lanes(Floats());
+  if (t.lobes.channels == 3 && t.grid.ratio) {
+    BlockRgb block;
+    std::memset(block.ratio, 0, sizeof block.ratio);  // the last vector may read behind the last pair
+    for (std::size_t first = 0; first < n; first += block_pairs) {
+      const std::size_t size = std::min(block_pairs, n - first);
+      for (std::size_t at = 0; at < size; at += lanes) {
+        PairVectors p;
+        const V factor = next(first + at, std::min(lanes, size - at), p);
+        begin_rgb(t, p, factor, block, at);
+      }
+      finish_rgb(t.grid, block, {planes, first, size});
+    }
+    return;
+  }
+  for (std::size_t i = 0; i < n; i += lanes) {
+    PairVectors p;
+    const Output out{planes, i, std::min(lanes, n - i)};
+    const V factor = next(i, out.count, p);
+    if (t.grid.ratio)
+      eval_grid_channels(t, p, factor, out);
+    else if (t.lobes.channels == 3)
+      eval_lobes_rgb(t, p, factor, out);
+    else
+      eval_lobe_channels(t, p, factor, out);
+  }
 }
 
 }  // namespace brdf::eval::HWY_NAMESPACE

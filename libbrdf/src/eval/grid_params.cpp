@@ -32,7 +32,7 @@ GridParams::GridParams(const residual::ResidualGrid& grid, int channels) {
     require(n >= 1 && n <= 1 << 16, bad, "a number of nodes", std::to_string(n), "1 to 65536");
   for (float k : {grid.kappa_h, grid.kappa_d})
     require(k > 0 && std::isfinite(k), bad, "kappa", std::to_string(k), "positive and finite");
-  require(grid.epsilon >= 0 && grid.epsilon <= 1e6f, bad, "epsilon", std::to_string(grid.epsilon), "0 to 1e6");
+  require(grid.epsilon >= 0 && grid.epsilon <= 1e30f, bad, "epsilon", std::to_string(grid.epsilon), "0 to 1e30");
   const std::uint64_t rows = static_cast<std::uint64_t>(grid.n_h) * static_cast<std::uint64_t>(grid.n_d);
   const std::uint64_t nodes = rows * static_cast<std::uint64_t>(grid.n_p);
   require(nodes <= max_nodes, ErrorCode::limit_exceeded, "the number of nodes", std::to_string(nodes), "at most 16777216");

@@ -1,11 +1,12 @@
 // SPDX-License-Identifier: Apache-2.0
 // A vector of pairs: their geometry, the lobes' values and the density of the sampling mixture. The formulas, and why
 // they are symmetric to the last bit, are those of eval/pair_terms.h and eval/scalar_eval.cpp.
+#include "eval/pair_terms.h"
 #include "eval/tables.h"
 
 #include <numbers>
 
-#include "eval/vector_math-inl.h"
+#include "eval/vectors-inl.h"
 
 #if defined(BRDF_EVAL_LOBE_KERNEL_INL_H_) == defined(HWY_TARGET_TOGGLE)
 #ifdef BRDF_EVAL_LOBE_KERNEL_INL_H_
@@ -31,10 +32,9 @@ struct PairVectors {
 HWY_INLINE PairVectors pair_vectors(const Directions& wi, const Directions& wo) {
   PairVectors p;
   const V sx = hn::Add(wi.x, wo.x), sy = hn::Add(wi.y, wo.y), dx = hn::Sub(wi.x, wo.x), dy = hn::Sub(wi.y, wo.y);
-  const V lowest = hn::Min(wi.z, wo.z);
   p.cos_i = wi.z;
   p.cos_o = wo.z;
-  p.low = hn::Max(lowest, set(min_cosine));
+  p.low = hn::Max(hn::Min(wi.z, wo.z), set(min_cosine));
   p.high = hn::Max(hn::Max(wi.z, wo.z), set(min_cosine));
   p.s_xy2 = hn::MulAdd(sx, sx, hn::Mul(sy, sy));
   p.d_xy2 = hn::MulAdd(dx, dx, hn::Mul(dy, dy));
@@ -44,10 +44,12 @@ HWY_INLINE PairVectors pair_vectors(const Directions& wi, const Directions& wo) 
   p.cross = hn::MulSub(sx, dy, hn::Mul(sy, dx));
   p.s2 = hn::Add(p.s_xy2, p.s_z2);
   const V norm2 = hn::Add(p.s2, hn::MulAdd(p.d_z, p.d_z, p.d_xy2));
-  p.s = root(p.s2);
+  p.s = hn::Sqrt(p.s2);
   p.norm = hn::MulAdd(norm2, set(0.25f), set(1.0f));
   p.inv_norm = hn::NegMulAdd(norm2, set(0.0625f), set(0.75f));
-  p.valid = hn::And(hn::Gt(lowest, hn::Zero(Floats())), hn::Lt(norm2, set(max_norm2)));
+  // each cosine by itself: a minimum may hide one that is no number
+  const V zero = hn::Zero(Floats());
+  p.valid = hn::And(hn::And(hn::Gt(wi.z, zero), hn::Gt(wo.z, zero)), hn::Lt(norm2, set(max_norm2)));
   return p;
 }
 
@@ -63,15 +65,15 @@ HWY_INLINE V ndf_numerator(V in_plane, V s_z2) {
   return hn::Mul(hn::Mul(s2, s2), set(half_inv_pi));
 }
 
-/// 1 / (denominator^2 divisor) of one lobe.
-HWY_INLINE V inverse_guarded(const GgxLobe& g, V in_plane, V s_z2, V divisor) {
+/// numerator / (denominator^2 divisor) of one lobe.
+HWY_INLINE V guarded_quotient(const GgxLobe& g, V numerator, V in_plane, V s_z2, V divisor) {
   const V den = hn::MulAdd(in_plane, set(g.inv_alpha), hn::Mul(s_z2, set(g.alpha)));
-  return reciprocal(hn::Max(hn::Mul(hn::Mul(den, den), divisor), set(min_denominator)));
+  return hn::Div(numerator, hn::Max(hn::Mul(hn::Mul(den, den), divisor), set(min_denominator)));
 }
 
 /// sqrt(alpha^2 + (1 - alpha^2) cos^2)
 HWY_INLINE V slope_length(const GgxLobe& g, V cos2) {
-  return root(hn::MulAdd(set(g.one_minus_alpha2), cos2, set(g.alpha2)));
+  return hn::Sqrt(hn::MulAdd(set(g.one_minus_alpha2), cos2, set(g.alpha2)));
 }
 
 /// `each(k, plain)` for the lobes from `first` to `last`, which share a half vector; adds to `grazing`.
@@ -83,7 +85,7 @@ HWY_INLINE void for_lobes(const LobeParams& lobes, std::size_t first, std::size_
   for (std::size_t k = first; k < last; ++k) {
     const GgxLobe& g = lobes.ggx[k];
     const V shadowing = hn::MulAdd(p.low, slope_length(g, high2), hn::Mul(p.high, slope_length(g, low2)));
-    const V value = hn::Mul(numerator, inverse_guarded(g, in_plane, p.s_z2, shadowing));
+    const V value = guarded_quotient(g, numerator, in_plane, p.s_z2, shadowing);
     const V bent = hn::Mul(value, fresnel);
     grazing = hn::MulAdd(set(g.f90), bent, grazing);
     each(k, hn::Sub(value, bent));
@@ -97,7 +99,7 @@ HWY_INLINE V for_each_lobe(const LobeParams& lobes, const PairVectors& p, Each&&
   const std::size_t turn = lobes.forward_count, end = lobes.ggx.size();
   for_lobes(lobes, 0, turn, p, p.s_xy2, p.s, grazing, each);
   if (HWY_UNLIKELY(turn < end))
-    for_lobes(lobes, turn, end, p, p.d_xy2, root(hn::Add(p.d_xy2, p.s_z2)), grazing, each);
+    for_lobes(lobes, turn, end, p, p.d_xy2, hn::Sqrt(hn::Add(p.d_xy2, p.s_z2)), grazing, each);
   return grazing;
 }
 
@@ -128,7 +130,7 @@ HWY_INLINE void add_densities(const Tables& t, std::size_t first, std::size_t la
     const V w = mixture_weights(t.mixture.lobe[k], basis);
     rest = hn::Sub(rest, w);
     const V one_sided = hn::Add(p.cos_o, slope_length(g, cos_o2));
-    density = hn::MulAdd(hn::Mul(w, numerator), inverse_guarded(g, in_plane, p.s_z2, one_sided), density);
+    density = hn::MulAdd(w, guarded_quotient(g, numerator, in_plane, p.s_z2, one_sided), density);
   }
 }
 

@@ -12,7 +12,7 @@ namespace brdf::eval {
 /// Most GGX lobes of one material: evaluation keeps a value for each on the stack.
 inline constexpr int max_ggx_lobes = 16;
 /// Largest reflectance of a lobe. With the floors in the lobe formulas it keeps every value below the largest float.
-inline constexpr double max_reflectance = 1e4;
+inline constexpr double max_reflectance = 1e30;
 inline constexpr double min_alpha = 1e-5;
 
 /// Constants of one GGX lobe, one cache line.

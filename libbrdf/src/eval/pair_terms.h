@@ -33,8 +33,7 @@ struct PairTerms {
 inline PairTerms pair_terms(const Vec3f& wi, const Vec3f& wo) noexcept {
   PairTerms p;
   const float sx = wi.x + wo.x, sy = wi.y + wo.y, dx = wi.x - wo.x, dy = wi.y - wo.y;
-  const float lowest = std::min(wi.z, wo.z);
-  p.low = std::max(lowest, min_cosine);
+  p.low = std::max(std::min(wi.z, wo.z), min_cosine);
   p.high = std::max(std::max(wi.z, wo.z), min_cosine);
   p.wo_higher = wo.z >= wi.z;
   p.s_xy2 = sx * sx + sy * sy;
@@ -49,7 +48,7 @@ inline PairTerms pair_terms(const Vec3f& wi, const Vec3f& wo) noexcept {
   p.s = std::sqrt(p.s2);
   p.norm = 1.0f + 0.25f * norm2;
   p.inv_norm = 0.75f - 0.0625f * norm2;
-  p.valid = lowest > 0.0f && norm2 < max_norm2;
+  p.valid = wi.z > 0.0f && wo.z > 0.0f && norm2 < max_norm2;
   return p;
 }
 

@@ -72,24 +72,35 @@ inline float with_ratio(float lobes, float ratio, float epsilon) noexcept {
   return std::max((lobes + epsilon) * ratio - epsilon, 0.0f);
 }
 
-void eval_terms(const LobeParams& lobes, const GridParams& g, const PairTerms& p, std::span<float> f) noexcept {
+/// Three channels, the usual case, with loops that the compiler unrolls.
+void eval_rgb(const LobeParams& lobes, const GridParams& g, const PairTerms& p, float* f) noexcept {
   const LobeValues v = lobe_values(lobes, p);
-  const std::size_t channels = f.size();
-  for (std::size_t c = 0; c < channels; ++c) f[c] = lobe_sum(lobes, v, c);
+  float sum[3];
+  for (std::size_t c = 0; c < 3; ++c) sum[c] = lobes.lambert[c] + v.grazing;
+  for (std::size_t k = 0; k < lobes.ggx.size(); ++k)
+    for (std::size_t c = 0; c < 3; ++c) sum[c] += lobes.ggx[k].f0[c] * v.plain[k];
+  if (g.ratio) {
+    const GridPosition at = grid_position(g, p);
+    float r[8];  // the six halves of two neighbours along p are adjacent
+    interpolate_rows(g, at, 0, r);
+    for (std::size_t c = 0; c < 3; ++c) sum[c] = with_ratio(sum[c], r[c] + (r[c + 3] - r[c]) * at.p, g.epsilon);
+  }
+  for (std::size_t c = 0; c < 3; ++c) f[c] = sum[c];
+}
+
+void eval_terms(const LobeParams& lobes, const GridParams& g, const PairTerms& p, std::span<float> f) noexcept {
+  if (f.size() == 3) return eval_rgb(lobes, g, p, f.data());
+  const LobeValues v = lobe_values(lobes, p);
+  for (std::size_t c = 0; c < f.size(); ++c) f[c] = lobe_sum(lobes, v, c);
   if (!g.ratio) return;
   const GridPosition at = grid_position(g, p);
-  if (channels == 3) {  // the six halves of two neighbours along p are adjacent
-    float r[8];
-    interpolate_rows<8>(g, at, 0, r);
-    for (std::size_t c = 0; c < 3; ++c) f[c] = with_ratio(f[c], r[c] + (r[c + 3] - r[c]) * at.p, g.epsilon);
-    return;
-  }
   const auto step = static_cast<std::size_t>(g.step_p);
-  for (std::size_t c = 0; c < channels; ++c) {
-    float below, above;
-    interpolate_rows<1>(g, at, c, &below);
-    interpolate_rows<1>(g, at, c + step, &above);
-    f[c] = with_ratio(f[c], below + (above - below) * at.p, g.epsilon);
+  for (std::size_t first = 0; first < f.size(); first += 8) {
+    float below[8], above[8];
+    interpolate_rows(g, at, first, below);
+    interpolate_rows(g, at, first + step, above);
+    for (std::size_t c = 0; c < std::min(f.size() - first, std::size_t{8}); ++c)
+      f[first + c] = with_ratio(f[first + c], below[c] + (above[c] - below[c]) * at.p, g.epsilon);
   }
 }
 

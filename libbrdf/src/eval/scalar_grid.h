@@ -47,19 +47,19 @@ inline GridPosition grid_position(const GridParams& g, const PairTerms& t) noexc
   return at;
 }
 
-/// Ratio of `count` adjacent halves from `first`, all four (h, d) rows, before interpolation along p. `count` is a
-/// constant so that the compiler turns the loop into vector instructions; the table's padding allows 8.
-template <int count>
+/// Eight adjacent halves from `first`, all four (h, d) rows, before interpolation along p. Always eight, so that the
+/// compiler turns the loops into vector instructions; the table's padding allows it.
 inline void interpolate_rows(const GridParams& g, const GridPosition& at, std::size_t first, float* out) noexcept {
   // the power of two undoes the shift decoding; it sits in the weights so that no product leaves the normal range
   const float w_h1 = at.h * residual::half_exponent_scale, w_h0 = residual::half_exponent_scale - w_h1;
   const float weight[4] = {w_h0 * (1.0f - at.d), w_h0 * at.d, w_h1 * (1.0f - at.d), w_h1 * at.d};
-  const std::ptrdiff_t offset[4] = {0, g.step_d, g.step_h, g.step_h + g.step_d};
-  float sum[count] = {};
+  const std::uint16_t* const corner = at.corner + first;
+  const std::uint16_t* const row[4] = {corner, corner + g.step_d, corner + g.step_h, corner + g.step_h + g.step_d};
+  float sum[8] = {};
   for (int k = 0; k < 4; ++k) {
-    std::uint16_t halves[count];
-    std::memcpy(halves, at.corner + offset[k] + first, sizeof halves);
-    for (int i = 0; i < count; ++i)
+    std::uint16_t halves[8];
+    std::memcpy(halves, row[k], sizeof halves);
+    for (int i = 0; i < 8; ++i)
       sum[i] += weight[k] * std::bit_cast<float>(static_cast<std::uint32_t>(halves[i]) << 13);
   }
   std::memcpy(out, sum, sizeof sum);

@@ -59,7 +59,7 @@ SampleSet collect_samples(const Lookup& lookup, int channels, int count) {
   set.values.reserve(n * static_cast<std::size_t>(channels));
   std::vector<double> f(static_cast<std::size_t>(channels));
   EvenSequence around_mirror(0.5), around_retro(0.25);
-  const long attempts = 20L * count;  // about 60 % of the pairs are above 85 degrees; masks may take most of the rest
+  const long attempts = 20L * count;  // two pairs in three are below 85 degrees; masks may take most of those
   for (long i = 0; i < attempts && set.size() < n; ++i) {
     const bool retro = i % retro_period == retro_period - 1;
     const double* u = retro ? around_retro.next() : around_mirror.next();

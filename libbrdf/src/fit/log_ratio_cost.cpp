@@ -43,10 +43,10 @@ bool LogRatioCost::Evaluate(double const* const* parameters, double* residuals, 
       double model = 0;
       for (std::size_t l = 0; l < n_lobes; ++l) {
         const double color = p[static_cast<std::size_t>(layout_.color(l)) + c];
-        model += layout_.kinds()[l] == LobeKind::lambert
-                     ? lobes::lambert(color)
-                     : shape[l].value *
-                           lobes::schlick(color, p[static_cast<std::size_t>(layout_.shape(l)) + 1], weight[l]);
+        model +=
+            layout_.kinds()[l] == LobeKind::lambert
+                ? lobes::lambert(color)
+                : shape[l].value * lobes::schlick(color, p[static_cast<std::size_t>(layout_.shape(l)) + 1], weight[l]);
       }
       const std::size_t row = (s - begin_) * channels + c;
       const double cosine = samples_.cos_i[s], shifted = model * cosine + log_offset;

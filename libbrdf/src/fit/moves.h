@@ -16,7 +16,7 @@ namespace brdf::fit {
 struct Move {
   enum class Action { add, replace, remove };
   Action action = Action::add;
-  std::size_t index = 0;  ///< of the lobe removed or replaced; an added one comes last
+  std::size_t index = 0;              ///< of the lobe removed or replaced; an added one comes last
   LobeKind kind = LobeKind::lambert;  ///< added; or removed
   std::vector<LobeSet> starts;
 };

@@ -22,11 +22,11 @@ struct PreparedSamples {
   std::vector<lobes::LobeGeometry> mirror;  ///< for ggx
   std::vector<lobes::LobeGeometry> retro;   ///< for retro_ggx
   std::vector<double> cos_i;
-  std::vector<double> value;                ///< [sample][channel], f / scale
-  std::vector<double> log_target;           ///< [sample][channel], log(value cos_i + log_offset)
-  std::vector<double> weight;               ///< mean 1
+  std::vector<double> value;       ///< [sample][channel], f / scale
+  std::vector<double> log_target;  ///< [sample][channel], log(value cos_i + log_offset)
+  std::vector<double> weight;      ///< mean 1
   std::vector<double> root_weight;
-  double independent = 0;                   ///< number of samples worth counting in a criterion
+  double independent = 0;  ///< number of samples worth counting in a criterion
   std::size_t size() const noexcept { return weight.size(); }
 };
 

@@ -88,7 +88,7 @@ class Search {
     start.lobes.push_back(starting_lambert(samples_));
     present_ = finish_on_all(start, result_.solver_message);
     const double before = criterion_of(nothing, mean_loss(samples_, layout_of(nothing), {}, samples_.size()));
-    result_.trials.push_back({LobeKind::lambert, before, present_.criterion, Trial::Outcome::kept, 0, false});
+    result_.trials.push_back({LobeKind::lambert, before, present_.criterion, Trial::Outcome::kept, 0, false, false});
     trial_of_.push_back(0);
   }
 
@@ -134,7 +134,7 @@ class Search {
       // a prefix and few iterations may hide a gain, so the best addition gets its chance in full whatever it showed
       const bool promising = s.merit > 0 || (addition ? !addition_finished : s.merit > -required_);
       if (!promising) {
-        record(*s.move, s.best, present_.screened, s.criterion, Trial::Outcome::refused);
+        record(*s.move, s.best, present_.screened, s.criterion, Trial::Outcome::refused, true);
         continue;
       }
       addition_finished = addition_finished || addition;
@@ -150,9 +150,10 @@ class Search {
     return false;
   }
 
-  void record(const Move& move, const LobeSet& lobes, double before, double after, Trial::Outcome outcome) {
+  void record(const Move& move, const LobeSet& lobes, double before, double after, Trial::Outcome outcome,
+              bool screened = false) {
     if (move.action == Action::remove) return;  // that a lobe was not removed is no news
-    Trial trial{move.kind, before, after, outcome, lobes.lobes.back().alpha, move.action == Action::replace};
+    Trial trial{move.kind, before, after, outcome, lobes.lobes.back().alpha, move.action == Action::replace, screened};
     result_.trials.push_back(trial);
   }
 

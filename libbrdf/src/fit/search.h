@@ -18,16 +18,17 @@ struct Trial {
   LobeKind kind = LobeKind::lambert;
   double before = 0, after = 0;  ///< criterion without and with it
   Outcome outcome = Outcome::refused;
-  double alpha = 0;              ///< of the final set where kept, of the trial otherwise
+  double alpha = 0;  ///< of the final set where kept, of the trial otherwise
   bool instead_of_lambert = false;
+  bool screened = false;  ///< criteria are those of the prefix on which starting points are compared
 };
 
 struct SearchResult {
   LobeSet lobes;              ///< unit scale, the channels of the prepared samples
   std::vector<Trial> trials;  ///< in the order tried
   std::string stop_reason, solver_message;
-  double cost = 0;            ///< 1/2 sum of weight rho
-  double required = 0;        ///< gain that a lobe had to bring
+  double cost = 0;      ///< 1/2 sum of weight rho
+  double required = 0;  ///< gain that a lobe had to bring
   int solver_runs = 0;
   double seconds_solver = 0;
 };

@@ -92,7 +92,7 @@ Lobe starting_ggx(const PreparedSamples& samples, std::size_t count, const LobeS
 
   Lobe lobe;
   lobe.kind = kind;
-  // 1, 3, 1/3, 9, 1/9, ... times the visible width, wrapped into the useful range by its length of 5 in log 10 / 2
+  // 1, 3, 1/3, 9, 1/9, ... times the visible width; what leaves the useful range comes in again at its other end
   const int step = (start + 1) / 2 * (start % 2 == 1 ? 1 : -1);
   const double low = std::log(2e-3), high = std::log(0.9);
   double log_alpha = std::log(visible_alpha(samples, geometry, rest, count)) + step * std::log(3.0);

@@ -32,7 +32,7 @@ std::string trial_sentence(const Trial& trial, double required) {
     case Trial::Outcome::kept: return text + ": BIC fell from " + before + " to " + after;
     case Trial::Outcome::refused:
       return text + " refused: BIC would go from " + before + " to " + after + ", but has to fall by " +
-             number("%.0f", required);
+             number("%.0f", required) + (trial.screened ? " (judged on a part of the samples)" : "");
     case Trial::Outcome::removed: break;
   }
   return text + " removed again: BIC is " + before + " without it and " + after + " with it, less than " +

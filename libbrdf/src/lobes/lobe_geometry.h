@@ -15,8 +15,8 @@ namespace brdf::lobes {
 /// Every value is the same bits after an exchange of the directions.
 struct LobeGeometry {
   double sin2_theta_h = 0, cos2_theta_h = 1;
-  double schlick_weight = 0;          ///< (1 - cos theta_d)^5
-  double cos_low = 1, cos_high = 1;   ///< cos_i and cos_o, sorted
+  double schlick_weight = 0;         ///< (1 - cos theta_d)^5
+  double cos_low = 1, cos_high = 1;  ///< cos_i and cos_o, sorted
 };
 
 /// For a pair above the horizon. The retro lobe is the reflection lobe seen with wo turned by pi about the normal; its

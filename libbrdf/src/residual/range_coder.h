@@ -17,7 +17,7 @@ class AdaptiveBit {
   constexpr explicit AdaptiveBit(std::uint32_t p1 = 32768) noexcept : p1_(static_cast<std::uint16_t>(p1)) {}
   std::uint32_t p1() const noexcept { return p1_; }
   void update(bool bit) noexcept {
-    // 1 / (n + 2.5) of the way for the first observations, later 1/40
+    // 1 / (n + 3.5) of the way for the first observations, in the end 1/43
     static constexpr std::uint16_t rate[16] = {18725, 14564, 11916, 10082, 8738, 7710, 6899, 6242,
                                                5699,  5243,  4855,  4520,  4228, 3972, 3745, 3542};
     const std::uint32_t r = count_ < 16 ? rate[count_] : settled(count_);
@@ -74,7 +74,8 @@ class RangeEncoder {
       }
     }
     for (int i = 0; i < 5; ++i) shift_low();
-    while (!bytes_.empty() && bytes_.back() == std::byte{0}) bytes_.pop_back();
+    // the decoder reads zeros beyond the end, but no more than four, so that a cut stream is noticed
+    for (int i = 0; i < 4 && !bytes_.empty() && bytes_.back() == std::byte{0}; ++i) bytes_.pop_back();
     return std::move(bytes_);
   }
 

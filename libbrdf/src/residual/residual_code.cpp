@@ -23,7 +23,7 @@ double step_of(int code) noexcept { return std::exp2(4.0 - code / 8.0); }
 int kappa_h_code(double v) noexcept { return nearest(v, 0.003, 3.0, 31); }
 int kappa_d_code(double v) noexcept { return nearest(v, 0.125, 2.0, 15); }
 int window_code(double v) noexcept { return nearest(v, 0.02, 2.5, 15); }
-int epsilon_code(double v) noexcept { return nearest(v, std::ldexp(1.0, -128), 1.0, 255); }
+int epsilon_code(double v) noexcept { return nearest(v, std::ldexp(1.0, -128), 1.0, largest_epsilon_code); }
 int step_code(double v) noexcept {
   return static_cast<int>(std::clamp(std::round((4.0 - std::log2(std::max(v, 1e-9))) * 8.0), 0.0, 255.0));
 }

@@ -15,9 +15,11 @@ struct BasisCodes {
   std::uint8_t kappa_d = 10;   ///< 0..15
   std::uint8_t window_h = 6;   ///< 0..15
   std::uint8_t window_d = 6;   ///< 0..15
-  std::uint8_t epsilon = 118;  ///< 0..255
+  std::uint8_t epsilon = 118;  ///< 0..largest_epsilon_code
   std::uint8_t shape = 0;      ///< index into order_shapes
 };
+
+inline constexpr int largest_epsilon_code = 227;  ///< 2^99
 
 double kappa_h_of(int code) noexcept;   ///< 0.003 * 2^(code/3): theta_h axis, see grid_coordinates.h
 double kappa_d_of(int code) noexcept;   ///< 0.125 * 2^(code/2)

@@ -14,25 +14,30 @@
 HWY_BEFORE_NAMESPACE();
 namespace brdf::sample::HWY_NAMESPACE {
 
-void run_sample(const eval::Tables& t, const DirectionSpan& wo, const DirectionSpan& u, const MutableDirectionSpan& wi,
-                float* pdf, PlanarSpan weight) {
-  const V zero = hn::Zero(Floats());
-  const std::size_t lanes = hn::Lanes(Floats());
-  for (std::size_t i = 0; i < wo.size; i += lanes) {
-    const std::size_t count = HWY_MIN(lanes, wo.size - i);
+/// Pairs that the mixture draws.
+struct DrawnPairs {
+  const eval::Tables& t;
+  const DirectionSpan &wo, &u;
+  const MutableDirectionSpan& wi;
+  float* pdf;
+  HWY_INLINE V operator()(std::size_t i, std::size_t count, kernel::PairVectors& p) const {
     const Directions view = kernel::load_directions(wo, i, count);
     const Directions drawn = mixture_directions(t, view, kernel::load_directions(u, i, count));
-    // pdf of the pair as it is returned; it is 0 for a pair at or below the horizon
-    const kernel::PairVectors pair = kernel::pair_vectors(drawn, view);
-    const V density = kernel::mixture_density(t, pair);
-    const auto found = hn::Gt(density, zero);
-    const V scale = hn::IfThenElseZero(found, hn::Div(drawn.z, density));
-    kernel::eval_pairs(t, pair, scale, {weight, i, count});
+    // the density of the pair as it is returned; it is 0 for a pair at or below the horizon
+    p = kernel::pair_vectors(drawn, view);
+    const V density = kernel::mixture_density(t, p);
+    const auto found = hn::Gt(density, hn::Zero(Floats()));
     kernel::store_first(hn::IfThenElseZero(found, density), pdf + i, count);
     kernel::store_first(hn::IfThenElseZero(found, drawn.x), wi.x + i, count);
     kernel::store_first(hn::IfThenElseZero(found, drawn.y), wi.y + i, count);
     kernel::store_first(hn::IfThenElseZero(found, drawn.z), wi.z + i, count);
+    return hn::IfThenElseZero(found, hn::Div(drawn.z, density));
   }
+};
+
+void run_sample(const eval::Tables& t, const DirectionSpan& wo, const DirectionSpan& u, const MutableDirectionSpan& wi,
+                float* pdf, PlanarSpan weight) {
+  kernel::eval_pairs(t, wo.size, weight, DrawnPairs{t, wo, u, wi, pdf});
 }
 
 }  // namespace brdf::sample::HWY_NAMESPACE

@@ -19,7 +19,6 @@ namespace hn = hwy::HWY_NAMESPACE;
 using kernel::Directions;
 using kernel::Floats;
 using kernel::Ints;
-using kernel::root;
 using kernel::set;
 using kernel::V;
 using kernel::VI;

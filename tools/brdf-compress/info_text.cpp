@@ -1,0 +1,122 @@
+// SPDX-License-Identifier: Apache-2.0
+// The report of `info` for people.
+#include "info_report.h"
+#include "text_table.h"
+
+namespace brdf::cli {
+namespace {
+
+class Facts {
+ public:
+  Facts& add(const std::string& what, const std::string& value) {
+    if (!value.empty()) table_.rows.push_back({what, value});
+    return *this;
+  }
+  std::string text() {
+    table_.header = table_.rows.front();  // no heading: the first fact is the first line
+    table_.rows.erase(table_.rows.begin());
+    table_.left_columns = 2;
+    return table_.terminal();
+  }
+
+ private:
+  TextTable table_;
+};
+
+std::string percent(double fraction) { return significant(100 * fraction) + " %"; }
+
+std::string channels(const Json& row) {
+  std::string text = std::to_string(row["channels"].get<int>()) + " (" + row["channel_model"].get<std::string>();
+  const Json& nm = row["wavelengths_nm"];
+  if (!nm.empty()) text += ", " + significant(nm.front(), 4) + " to " + significant(nm.back(), 4) + " nm";
+  return text + ")";
+}
+
+std::string word(const Json& row, const char* key) { return row[key].get<std::string>(); }
+
+std::string colour(const Json& values) {
+  constexpr std::size_t most = 6;
+  std::string text;
+  for (std::size_t c = 0; c < std::min(values.size(), most); ++c)
+    text += (c > 0 ? " " : "") + significant(values[c], 4);
+  return values.size() > most ? text + " ..." : text;
+}
+
+std::string refinement_table(const Json& list) {
+  TextTable table;
+  table.header = {"refinement", "ends at byte", "level", "log_mae", "psnr_env"};
+  table.left_columns = 0;
+  for (const Json& entry : list) {
+    const std::string number = std::to_string(entry["refinement"].get<int>());
+    const std::string end = std::to_string(entry["ends_at"].get<std::uint64_t>());
+    if (!entry["present"].get<bool>()) table.rows.push_back({number, end, "not read", "", ""});
+    for (const Json& e : entry["errors"]) {
+      table.rows.push_back({number, end, word(e, "level"), significant(e["log_mae"]), fixed(e["psnr_env"], 2)});
+    }
+  }
+  return table.terminal();
+}
+
+std::string lobe_table(const Json& list) {
+  TextTable table;
+  table.header = {"lobe", "alpha", "f90", "colour (rho or f0)"};
+  for (const Json& lobe : list) {
+    const bool rough = lobe.contains("alpha");
+    table.rows.push_back({word(lobe, "kind"), rough ? significant(lobe["alpha"], 4) : "",
+                          rough ? significant(lobe["f90"], 4) : "", colour(lobe["color"])});
+  }
+  return table.terminal();
+}
+
+}  // namespace
+
+std::string measured_text(const Json& row) {
+  std::string shape;
+  for (const Json& n : row["table"]) shape += (shape.empty() ? "" : " x ") + std::to_string(n.get<std::uint64_t>());
+  return Facts()
+      .add("file", word(row, "file"))
+      .add("format", word(row, "format"))
+      .add("name", word(row, "name"))
+      .add("description", word(row, "description"))
+      .add("licence", word(row, "licence"))
+      .add("bytes", std::to_string(row["file_bytes"].get<std::uint64_t>()))
+      .add("hash (XXH3-64)", word(row, "content_hash"))
+      .add("channels", channels(row))
+      .add("table", shape)
+      .add("cells", std::to_string(row["cells"].get<std::uint64_t>()))
+      .add("numbers", std::to_string(row["numbers"].get<std::uint64_t>()))
+      .add("cells not measured", percent(row["invalid_fraction"]))
+      .add("negative values", percent(row["negative_fraction"]))
+      .add("reciprocity asymmetry", significant(row["reciprocity_asymmetry"]))
+      .add("mirror asymmetry", significant(row["mirror_asymmetry"]))
+      .add("largest albedo", significant(row["max_albedo"], 4))
+      .add("largest f, 1/sr", significant(row["max_value"], 4))
+      .text();
+}
+
+std::string compressed_text(const Json& row) {
+  std::string resident;
+  for (const auto& [level, bytes] : row["resident_bytes"].items()) {
+    resident += (resident.empty() ? "" : ", ") + level + " " + std::to_string(bytes.get<std::uint64_t>());
+  }
+  const auto number = [&](const char* key) { return std::to_string(row[key].get<std::uint64_t>()); };
+  const std::string facts = Facts()
+                                .add("file", word(row, "file"))
+                                .add("format", "brdfc " + number("format_version"))
+                                .add("name", word(row, "name"))
+                                .add("source format", word(row, "format"))
+                                .add("description", word(row, "description"))
+                                .add("licence", word(row, "licence"))
+                                .add("source hash", word(row, "content_hash"))
+                                .add("written by", word(row, "fitter"))
+                                .add("bytes", number("bytes_read") + " of " + number("total_bytes"))
+                                .add("refinements", number("refinements_read") + " of " + number("refinements_total"))
+                                .add("channels", channels(row))
+                                .add("reciprocal", row["reciprocal"].get<bool>() ? "exactly" : "no")
+                                .add("mirror symmetric", row["mirror_symmetric"].get<bool>() ? "yes" : "no")
+                                .add("resident bytes", resident)
+                                .text();
+  return facts + '\n' + lobe_table(row["lobes"]) + '\n' + refinement_table(row["refinements"]);
+}
+
+}  // namespace brdf::cli

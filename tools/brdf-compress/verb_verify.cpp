@@ -1,0 +1,105 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "json_report.h"
+#include "material_checks.h"
+#include "material_source.h"
+#include "progress_bar.h"
+#include "recorded_checks.h"
+#include "sampling_checks.h"
+#include "standard_output.h"
+#include "text_table.h"
+#include "verb_options.h"
+#include "verbs.h"
+
+#include <algorithm>
+#include <memory>
+
+namespace brdf::cli {
+namespace {
+
+struct Options {
+  std::string file, reference;
+  SamplePosition position = SamplePosition::edge;
+  int threads = 0;
+  Reporting reporting;
+};
+
+void append(Checks& all, Checks more) {
+  all.insert(all.end(), std::make_move_iterator(more.begin()), std::make_move_iterator(more.end()));
+}
+
+std::string table(const Checks& checks) {
+  TextTable t;
+  t.header = {"", "check", "found", "allowed", "where"};
+  t.left_columns = 5;
+  for (const Check& c : checks)
+    t.rows.push_back({c.ok ? "ok" : "FAILED", c.name, significant(c.value, 4), c.allowed, c.note});
+  return t.terminal();
+}
+
+Json json_rows(const Checks& checks) {
+  Json rows = Json::array();
+  for (const Check& c : checks) {
+    Json row;
+    row["check"] = c.name;
+    row["ok"] = c.ok;
+    row["value"] = c.value;
+    row["allowed"] = c.allowed;
+    row["where"] = c.note;
+    rows.push_back(std::move(row));
+  }
+  return rows;
+}
+
+Checks examine(const Options& o) {
+  ProgressBar bar(o.reporting);
+  bar.show("reading", 0);
+  const MaterialSource file = MaterialSource::open(o.file, {});
+  if (!file.is_compressed()) throw Failure(ExitCode::bad_input, o.file + ": is a measured file and no .brdfc");
+  std::optional<MaterialSource> reference;
+  if (!o.reference.empty()) reference = MaterialSource::open(o.reference, {EvalLevel::exact, {}, o.position});
+
+  Checks checks{{"the file decodes", true, static_cast<double>(file.file_bytes()), "checksums and structure", "bytes"}};
+  checks.push_back(prefix_check(file.bytes(), file.path()));
+  for (const EvalLevel level : {EvalLevel::fast, EvalLevel::balanced, EvalLevel::exact}) {
+    bar.show("values", 0.05);
+    append(checks, value_checks(file.material().prepare(level)));
+  }
+  checks.push_back(albedo_check(file.material()));
+  bar.show("sampling", 0.1);
+  append(checks, sampling_checks(file.material()));
+  if (reference) append(checks, recorded_checks(file, *reference, thread_count(o.threads), bar));
+  return checks;
+}
+
+ExitCode run(const Options& o) {
+  const Checks checks = examine(o);
+  print(o.reporting.json ? json_report("verify", json_rows(checks)) : table(checks));
+  const auto failed = std::count_if(checks.begin(), checks.end(), [](const Check& c) { return !c.ok; });
+  if (failed == 0) return ExitCode::ok;
+  const auto first = std::find_if(checks.begin(), checks.end(), [](const Check& c) { return !c.ok; });
+  throw Failure(ExitCode::failed, o.file + ": " + std::to_string(failed) + " of " + std::to_string(checks.size()) +
+                                      " checks failed, the first is '" + first->name + "' " + first->note);
+}
+
+}  // namespace
+
+Verb add_verify(CLI::App& program) {
+  auto o = std::make_shared<Options>();
+  CLI::App* verb = program.add_subcommand("verify", "Check that a .brdfc file is sound, and as good as it says");
+  verb->add_option("FILE", o->file, "A .brdfc file")->required();
+  verb->add_option("--against", o->reference, "The measured file it was made from: checks the recorded errors")
+      ->type_name("MEASURED");
+  add_position(*verb, o->position);
+  add_threads(*verb, o->threads);
+  add_reporting(*verb, o->reporting);
+  verb->footer(
+      "Checks structure, every prefix, values at every level (finite, not negative, reciprocal where declared), and "
+      "that\n"
+      "sample, pdf and eval agree. Exit code 0: all passed, 1: a check failed, 3: the file cannot be read.\n\n"
+      "Examples:\n"
+      "  brdf-compress verify gold.brdfc\n"
+      "  brdf-compress verify gold.brdfc --against gold.binary --json");
+  return {verb, [o] { return run(*o); }};
+}
+
+}  // namespace brdf::cli
