@@ -61,8 +61,7 @@ std::vector<std::string> detail_lines(const CompressReport& r) {
   const EncodeSummary& s = r.summary;
   std::vector<std::string> lines;
   for (const LobeReason& lobe : s.fit.lobes) {
-    lines.push_back(std::string(lobe.kept ? "  kept     " : "  refused  ") + lobe_name(lobe.kind) + ": " +
-                    lobe.sentence);
+    lines.push_back((lobe.kept ? "  kept     " : "  refused  ") + lobe.sentence);
   }
   lines.push_back("  solver: " + s.fit.solver_message);
   lines.push_back("  seconds: sample " + fixed(s.seconds_sample, 2) + ", fit " + fixed(s.seconds_fit, 2) +

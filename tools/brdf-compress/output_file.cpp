@@ -17,7 +17,9 @@ namespace {
 
 namespace fs = std::filesystem;
 
-Failure exists_already(const fs::path& path) { return {ExitCode::failed, path.string() + ": exists already; -f replaces it"}; }
+Failure exists_already(const fs::path& path) {
+  return {ExitCode::failed, path.string() + ": exists already; -f replaces it"};
+}
 
 }  // namespace
 

@@ -114,7 +114,7 @@ Check distribution_check(const DensityCells& cells, std::size_t rejected, const 
 Checks sampling_checks(const Material& material) {
   Checks checks;
   for (std::size_t k = 0; k < views.size(); ++k) {
-    const std::string where = "theta_o " + significant(views[k].theta) + " degrees";
+    const std::string where = "theta_o " + fixed(views[k].theta, 0) + " degrees";
     const Vec3f wo = direction(views[k]);
     const Drawn d = draw(material, wo, k + 1);
     const std::size_t rejected = samples - d.accepted.size();

@@ -11,6 +11,7 @@
 #include "verbs.h"
 
 #include <algorithm>
+#include <cmath>
 #include <memory>
 
 namespace brdf::cli {
@@ -27,12 +28,13 @@ void append(Checks& all, Checks more) {
   all.insert(all.end(), std::make_move_iterator(more.begin()), std::make_move_iterator(more.end()));
 }
 
+std::string figure(double value) { return value == std::floor(value) ? fixed(value, 0) : significant(value, 4); }
+
 std::string table(const Checks& checks) {
   TextTable t;
   t.header = {"", "check", "found", "allowed", "where"};
   t.left_columns = 5;
-  for (const Check& c : checks)
-    t.rows.push_back({c.ok ? "ok" : "FAILED", c.name, significant(c.value, 4), c.allowed, c.note});
+  for (const Check& c : checks) t.rows.push_back({c.ok ? "ok" : "FAILED", c.name, figure(c.value), c.allowed, c.note});
   return t.terminal();
 }
 

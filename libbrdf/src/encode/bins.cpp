@@ -47,7 +47,8 @@ class Averages {
   void finish() noexcept {
     const auto n = static_cast<std::size_t>(bins_.channels);
     for (std::size_t cell = 0; cell < count_.size(); ++cell) {
-      if (count_[cell] == 0) continue;
+      // cells of a table may lie above the horizon in a bin whose middle, which gives the weights, does not
+      if (count_[cell] == 0 || std::min(bins_.cos_i[cell], bins_.cos_o[cell]) < lowest_cosine) continue;
       bins_.valid[cell] = 1;
       for (std::size_t c = 0; c < n; ++c) {
         bins_.f[cell * n + c] /= count_[cell];
