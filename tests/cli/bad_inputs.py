@@ -2,7 +2,6 @@
 # SPDX-License-Identifier: Apache-2.0
 """Files that cannot be read end with exit code 3 and a sentence that names the file and what is wrong with it."""
 import struct
-import unittest
 
 from support.cli_harness import CliTest, MERL_BYTES, MERL_CELLS, compressed, folder, main, measured
 
@@ -55,7 +54,8 @@ class BadInputs(CliTest):
                 self.refused(written(f"{name}_dims.binary", struct.pack("<3i", *n) + bytes(4096)))
 
     def test_table_of_nan_has_nothing_to_fit(self):
-        nan = written("all_nan.binary", struct.pack("<3i", 90, 90, 180) + struct.pack("<d", float("nan")) * 3 * MERL_CELLS)
+        cells = struct.pack("<d", float("nan")) * 3 * MERL_CELLS
+        nan = written("all_nan.binary", struct.pack("<3i", 90, 90, 180) + cells)
         self.assertEqual(nan.stat().st_size, MERL_BYTES)
         self.fail_with(3, "compress", nan, "-o", folder() / "never.brdfc", "--preset", "fastest", says=str(nan.stem))
         nan.unlink()

@@ -5,7 +5,6 @@ import os
 import signal
 import subprocess
 import time
-import unittest
 
 from support.cli_harness import BRDF_COMPRESS, CliTest, compressed, folder, main, measured, run
 
@@ -28,7 +27,8 @@ class Compress(CliTest):
 
     def test_impossible_size(self):
         out = folder() / "impossible.brdfc"
-        done = self.fail_with(4, "compress", measured(), "-o", out, "--preset", "fastest", "--target-size", 10, says="10")
+        arguments = ["compress", measured(), "-o", out, "--preset", "fastest", "--target-size", 10]
+        done = self.fail_with(4, *arguments, says="10")
         self.assertRegex(done.stderr, r"smallest\D*\d+ bytes")
         self.assertFalse(out.exists())
 
@@ -92,8 +92,8 @@ class Compress(CliTest):
     def test_interrupt_leaves_nothing(self):
         place = folder() / "interrupted"
         place.mkdir()
-        child = subprocess.Popen([BRDF_COMPRESS, "compress", measured(), "-o", place / "a.brdfc", "--preset", "exhaustive"],
-                                 stderr=subprocess.DEVNULL)
+        arguments = ["compress", measured(), "-o", place / "a.brdfc", "--preset", "exhaustive"]
+        child = subprocess.Popen([BRDF_COMPRESS, *arguments], stderr=subprocess.DEVNULL)
         time.sleep(0.3)
         child.send_signal(signal.SIGINT)
         self.assertEqual(child.wait(timeout=30), 130)

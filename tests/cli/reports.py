@@ -3,9 +3,9 @@
 """info, verify, compare and bench: keys and plausibility of what they report."""
 import csv
 import io
-import unittest
+import subprocess
 
-from support.cli_harness import CliTest, compressed, folder, main, measured, run
+from support.cli_harness import CliTest, compressed, folder, main, measured, program, run
 
 BENCH_KEYS = """material preset effort target eval_level bytes ratio ratio_native encode_s decode_us resident_bytes
 eval_ns eval_ns_scalar pdf_ns sample_ns sample_ns_scalar raw_eval_ns raw_eval_ns_scalar log_mae log_mae_p95 log_mae_max
@@ -57,9 +57,8 @@ class Reports(CliTest):
         other.unlink()
 
     def gonio(self, *arguments):
-        import os
-        import subprocess
-        return subprocess.run([os.environ["BRDF_GONIO"], *map(str, arguments)], check=True, capture_output=True, text=True)
+        command = [program("brdf-gonio"), *map(str, arguments)]
+        return subprocess.run(command, check=True, capture_output=True, text=True)
 
     def surfaces(self):
         return self.gonio("sample", "--list").stdout.splitlines()

@@ -3,7 +3,6 @@
 """eval, pdf and sample: formats, prefixes, repeatability, and agreement with each other."""
 import math
 import random
-import unittest
 
 from support.cli_harness import CliTest, compressed, direction, floats, folder, main, measured, pack_floats
 
@@ -114,8 +113,8 @@ class Rows(CliTest):
         self.assertNotEqual(coarse, whole)
         self.assertEqual(coarse, lobes)  # the first boundary is after the lobes
         for prefix in [ends[-1], 10**9]:
-            self.assertEqual(self.succeed("eval", compressed(), "--format", "f32", "--prefix", prefix, stdin=rows).stdout,
-                             whole)
+            done = self.succeed("eval", compressed(), "--format", "f32", "--prefix", prefix, stdin=rows)
+            self.assertEqual(done.stdout, whole)
         self.fail_with(2, "eval", compressed(), "--prefix", ends[0] + 1, says=["--prefix", str(ends[0])])
         cut = folder() / "cut_at_boundary.brdfc"
         cut.write_bytes(compressed().read_bytes()[:ends[0]])
@@ -157,7 +156,8 @@ class Rows(CliTest):
                 self.assertGreater(row[2], 0)
                 self.assertAlmostEqual(pdf[k] / row[3], 1, delta=1e-2)
                 for c in range(3):
-                    self.assertAlmostEqual(row[4 + c], f[3 * k + c] * row[2] / row[3], delta=1e-2 * max(row[4 + c], 1e-3))
+                    weight = f[3 * k + c] * row[2] / row[3]
+                    self.assertAlmostEqual(row[4 + c], weight, delta=1e-2 * max(weight, 1e-3))
 
     def test_view_below_the_horizon_is_all_rejected(self):
         data = floats(self.succeed("sample", compressed(), "--wo=0,0,-1", "-n", 5, "--format", "f32").stdout)

@@ -2,7 +2,6 @@
 # SPDX-License-Identifier: Apache-2.0
 """Command lines without meaning end with exit code 2 and one sentence; help and version go to stdout."""
 import os
-import unittest
 
 from support.cli_harness import CliTest, compressed, folder, main, measured, run
 
@@ -61,7 +60,15 @@ class Usage(CliTest):
             with self.subTest(wo=wo):
                 self.fail_with(2, "sample", compressed(), f"--wo={wo}", "-n", 1, says="--wo")
         self.fail_with(2, "sample", compressed(), "--wo", "0,0,1", says="--count")
-        self.fail_with(2, "sample", compressed(), "--wo", "0,0,1", "-n", "-5")
+
+    def test_bad_counts(self):
+        for n in ["-5", "1e3", "18446744073709551616", "many"]:
+            with self.subTest(n=n):
+                self.fail_with(2, "sample", compressed(), "--wo", "0,0,1", f"--count={n}", says=n)
+                self.fail_with(2, "eval", compressed(), f"--prefix={n}", says=n)
+                self.fail_with(2, "compress", measured(), "-o", folder() / "never.brdfc", f"--target-size={n}", says=n)
+                self.fail_with(2, "bench", measured(), f"--sizes=100,{n}", says=n)
+        self.fail_with(2, "bench", measured(), "--presets", "fast,quick", says="quick")
 
     def test_the_output_may_not_be_the_input(self):
         before = measured().read_bytes()

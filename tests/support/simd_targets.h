@@ -2,6 +2,8 @@
 // Runs code once on every instruction set that this machine has.
 #pragma once
 
+#include "eval/highway_targets.h"  // the targets of the library, not of the test
+
 #include <brdf/material.h>
 
 #include <gtest/gtest.h>

@@ -57,11 +57,11 @@ TEST(Quantise, EndsAreOnePastTheLastLivingCoefficient) {
   const ErrorModel model = model_of(200);
   const Quantised q = quantise(model, solve_coefficients(model), codes, true, {0.1, 1.0, 3});
   ASSERT_EQ(q.q.size(), 3U);
+  EXPECT_GT(q.end[0], 10U);
   for (std::size_t c = 0; c < 3; ++c) {
     ASSERT_EQ(q.q[c].size(), 200U);
     ASSERT_LE(q.end[c], 200U);
-    ASSERT_GT(q.end[c], 0U);
-    EXPECT_NE(q.q[c][q.end[c] - 1], 0);
+    EXPECT_TRUE(q.end[c] == 0 || q.q[c][q.end[c] - 1] != 0);
     for (std::size_t j = q.end[c]; j < 200; ++j) EXPECT_EQ(q.q[c][j], 0);
   }
 }

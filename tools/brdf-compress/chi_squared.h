@@ -14,8 +14,8 @@ struct FitTest {
   double p_value = 1;
 };
 
-/// Observed against expected counts of neighbouring cells, pooled in their order until at least `wanted` are expected in
-/// each bin. Both sums must agree.
+/// Observed against expected counts of neighbouring cells, pooled in their order until at least `wanted` are expected
+/// in each bin. Both sums must agree.
 FitTest chi_squared_test(std::span<const double> observed, std::span<const double> expected, double wanted);
 
 }  // namespace brdf::cli

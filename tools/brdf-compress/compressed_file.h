@@ -16,7 +16,7 @@ namespace brdf::cli {
 /// Lengths at which the file may be cut: after the lobes and after each refinement.
 std::vector<std::uint64_t> refinement_ends(std::span<const std::byte> bytes, const std::string& path);
 
-/// The first `prefix` bytes of a file that is longer; all bytes where no prefix is asked for or the file ends before it.
+/// The first `prefix` bytes of a file that is longer; all bytes where no prefix is asked for or the file ends before.
 /// Throws Failure(usage), naming the possible lengths, for a prefix that ends elsewhere.
 std::vector<std::byte> cut_to_prefix(std::vector<std::byte> bytes, std::optional<std::uint64_t> prefix,
                                      const std::string& path);

@@ -12,7 +12,7 @@ namespace brdf::cli {
 
 using Json = nlohmann::ordered_json;
 
-/// `verb` becomes the schema "brdf-compress/<verb>/1". Numbers that are not finite become null, text is made valid UTF-8.
+/// `verb` becomes the schema "brdf-compress/<verb>/1". Numbers that are not finite become null, text becomes UTF-8.
 inline std::string json_report(std::string_view verb, Json rows) {
   Json document;
   document["schema"] = "brdf-compress/" + std::string(verb) + "/1";

@@ -8,8 +8,8 @@
 
 namespace brdf::cli {
 
-/// Reads rows wi.xyz wo.xyz on stdin and writes `channels` numbers for each to stdout. Directions whose length is off
-/// by more than 1e-3 are scaled to unit length; one of length 0 is answered with 0. Memory does not grow with the input.
+/// Reads rows wi.xyz wo.xyz on stdin and writes `channels` numbers for each to stdout. Directions whose length is off by
+/// more than 1e-3 are scaled to unit length; one of length 0 is answered with 0. Memory does not grow with the input.
 void answer_rows(const BatchEval& answer, int channels, RowFormat format);
 
 }  // namespace brdf::cli

@@ -7,7 +7,7 @@
 
 namespace brdf::cli {
 
-/// Buffered writer of stdout. A closed pipe or a full disk throws Error(io). What is not flushed is lost on destruction.
+/// Buffered writer of stdout. A closed pipe or a full disk throws Error(io). What is not flushed is lost.
 class StandardOutput {
  public:
   void write(std::string_view bytes);

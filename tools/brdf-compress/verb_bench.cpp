@@ -106,6 +106,18 @@ void write_text(const std::string& path, const std::string& text, bool force) {
   write_output(path, std::as_bytes(std::span(text)), force);
 }
 
+/// Applies a check to every part of "a,b,c".
+CLI::Validator each_of(const CLI::Validator& check) {
+  const auto all = [check](const std::string& text) {
+    for (std::string part : split_list(text)) {
+      std::string complaint = check(part);
+      if (!complaint.empty()) return complaint;
+    }
+    return std::string();
+  };
+  return {all, ""};
+}
+
 ExitCode run(const Options& o) {
   for (const std::string* file : {&o.csv, &o.markdown})
     if (!file->empty() && *file != "-") check_output(*file, {}, o.force);
@@ -130,17 +142,19 @@ Verb add_bench(CLI::App& program, const std::string& command_line) {
   o->command_line = command_line;
   CLI::App* verb = program.add_subcommand("bench", "Size, speed and error of each preset, measured");
   verb->add_option("FILES", o->files, "Measured files")->required();
-  verb->add_option("--presets", o->presets, "Presets to compare (default all; with --sizes medium)")
-      ->delimiter(',')
-      ->check(CLI::IsMember(preset_names()))
-      ->expected(1)
-      ->allow_extra_args(false)
+  verb->add_option_function<std::string>(
+          "--presets", [o](const std::string& text) { o->presets = split_list(text); },
+          "Presets to compare (default all; with --sizes medium)")
+      ->check(each_of(CLI::IsMember(preset_names())))
       ->type_name("A,B,..");
-  verb->add_option("--sizes", o->sizes, "Target sizes to compare, in bytes")
-      ->delimiter(',')
-      ->check(CLI::PositiveNumber)
-      ->expected(1)
-      ->allow_extra_args(false)
+  verb->add_option_function<std::string>(
+          "--sizes",
+          [o](const std::string& text) {
+            o->sizes.clear();
+            for (const std::string& part : split_list(text)) o->sizes.push_back(std::stoull(part));
+          },
+          "Target sizes to compare, in bytes")
+      ->check(each_of(natural_number(1)))
       ->type_name("N,M,..");
   verb->add_option_function<std::string>(
           "--eval",

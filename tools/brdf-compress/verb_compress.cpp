@@ -100,6 +100,7 @@ Verb add_compress(CLI::App& program) {
       ->type_name("0..100")
       ->excludes(preset);
   auto* size = verb->add_option("--target-size", o->encode.target_size, "Size of the whole file, never exceeded")
+                   ->check(natural_number(1))
                    ->type_name("BYTES");
   verb->add_option_function<std::string>(
           "--target-error", [o](const std::string& text) { o->encode.target_error = parse_target(text); },

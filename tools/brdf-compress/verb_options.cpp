@@ -3,23 +3,26 @@
 
 #include <brdf/encode.h>
 
-#include <map>
+#include <algorithm>
+#include <charconv>
 #include <thread>
+#include <utility>
 
 namespace brdf::cli {
 namespace {
 
 /// An option that takes one of a few words.
 template <class T>
-CLI::Option* add_choice(CLI::App& verb, const std::string& name, T& value, const std::map<std::string, T>& choices,
-                        const std::string& purpose) {
+CLI::Option* add_choice(CLI::App& verb, const std::string& name, T& value,
+                        const std::vector<std::pair<std::string, T>>& choices, const std::string& purpose) {
   std::vector<std::string> words;
   for (const auto& [word, meaning] : choices) words.push_back(word);
   return verb
       .add_option_function<std::string>(
           name,
           [&value, choices, words, name](const std::string& word) {
-            const auto found = choices.find(word);
+            const auto found =
+                std::find_if(choices.begin(), choices.end(), [&](const auto& c) { return c.first == word; });
             if (found == choices.end()) {
               throw CLI::ValidationError(name, "is '" + word + "', allowed is " + listed(words));
             }
@@ -46,6 +49,7 @@ void add_eval_level(CLI::App& verb, EvalLevel& level) {
 
 void add_prefix(CLI::App& verb, std::optional<std::uint64_t>& prefix) {
   verb.add_option("--prefix", prefix, "Read only the first BYTES of a .brdfc file; 'info' lists where it may be cut")
+      ->check(natural_number(1))
       ->type_name("BYTES");
 }
 
@@ -72,6 +76,27 @@ void add_threads(CLI::App& verb, int& threads) {
 int thread_count(int wanted) noexcept {
   if (wanted > 0) return wanted;
   return static_cast<int>(std::max(1U, std::thread::hardware_concurrency()));
+}
+
+CLI::Validator natural_number(std::uint64_t least) {
+  const auto check = [least](const std::string& text) -> std::string {
+    std::uint64_t value = 0;
+    const auto [rest, error] = std::from_chars(text.data(), text.data() + text.size(), value);
+    if (error == std::errc{} && rest == text.data() + text.size() && value >= least) return {};
+    return "is '" + text + "', allowed is a whole number of at least " + std::to_string(least);
+  };
+  return {check, ""};
+}
+
+std::vector<std::string> split_list(const std::string& text) {
+  std::vector<std::string> parts(1);
+  for (const char c : text) {
+    if (c == ',')
+      parts.emplace_back();
+    else
+      parts.back() += c;
+  }
+  return parts;
 }
 
 std::string listed(const std::vector<std::string>& words) {

@@ -23,6 +23,11 @@ void add_force(CLI::App& verb, bool& force);
 void add_threads(CLI::App& verb, int& threads);
 int thread_count(int wanted) noexcept;
 
+/// Accepts decimal digits that fit 64 bits, at least `least`: CLI11 itself would wrap "-5" round.
+CLI::Validator natural_number(std::uint64_t least = 0);
+/// The parts of "a,b,c".
+std::vector<std::string> split_list(const std::string& text);
+
 /// "a, b or c", for sentences and help.
 std::string listed(const std::vector<std::string>& words);
 

@@ -122,8 +122,11 @@ Verb add_sample(CLI::App& program) {
   CLI::App* verb = program.add_subcommand("sample", "Draw directions wi for a given wo");
   verb->add_option("MATERIAL", o->material, "A .brdfc or measured file")->required();
   verb->add_option("--wo", o->wo, "Direction towards the viewer, a unit vector")->type_name("X,Y,Z")->required();
-  verb->add_option("-n,--count", o->count, "Rows to write")->type_name("N")->required();
-  verb->add_option("--seed", o->seed, "Row i depends on the seed and i alone")->type_name("S")->capture_default_str();
+  verb->add_option("-n,--count", o->count, "Rows to write")->check(natural_number())->type_name("N")->required();
+  verb->add_option("--seed", o->seed, "Row i depends on the seed and i alone")
+      ->check(natural_number())
+      ->type_name("S")
+      ->capture_default_str();
   add_row_format(*verb, o->format);
   add_eval_level(*verb, o->source.level);
   add_prefix(*verb, o->source.prefix);

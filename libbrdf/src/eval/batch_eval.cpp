@@ -73,7 +73,7 @@ void eval_pdf_batch(const Tables& t, DirectionSpan wi, DirectionSpan wo, PlanarS
 const char* simd_target() noexcept {
   // SupportedTargets holds one bit per usable instruction set, the best one lowest; HWY_TARGETS are those compiled.
   const std::int64_t usable = hwy::SupportedTargets() & HWY_TARGETS;
-  const std::int64_t best = usable & -usable;
+  const std::int64_t best = usable != 0 ? usable & -usable : HWY_STATIC_TARGET;
   return best == HWY_SCALAR || best == HWY_EMU128 ? "scalar" : hwy::TargetName(best);
 }
 
