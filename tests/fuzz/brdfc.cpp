@@ -23,7 +23,7 @@ void require(bool ok) {
 void require_number(float v) { require(std::isfinite(v) && v >= 0); }
 
 /// From the normal to grazing, in and out of one plane.
-constexpr std::array<Vec3f, 6> directions{Vec3f{0, 0, 1},           Vec3f{0.6F, 0, 0.8F},         Vec3f{-0.6F, 0, 0.8F},
+constexpr std::array<Vec3f, 6> directions{Vec3f{0, 0, 1},         Vec3f{0.6F, 0, 0.8F},        Vec3f{-0.6F, 0, 0.8F},
                                           Vec3f{0, 0.96F, 0.28F}, Vec3f{0.9999995F, 0, 1e-3F}, Vec3f{0.28F, -0.96F, 0}};
 
 void use(const Material& m) {

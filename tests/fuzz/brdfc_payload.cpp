@@ -47,7 +47,8 @@ extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size
     const brdf::Material m = brdf::Material::decode(file, options);
     std::vector<float> f(static_cast<std::size_t>(m.channels()));
     for (const brdf::Vec3f& wi : {brdf::Vec3f{0, 0, 1}, brdf::Vec3f{0.6F, 0, 0.8F}, brdf::Vec3f{0, 0.9999995F, 1e-3F}})
-      for (const brdf::Vec3f& wo : {brdf::Vec3f{0, 0, 1}, brdf::Vec3f{-0.6F, 0, 0.8F}, brdf::Vec3f{0.9999995F, 0, 1e-3F}}) {
+      for (const brdf::Vec3f& wo :
+           {brdf::Vec3f{0, 0, 1}, brdf::Vec3f{-0.6F, 0, 0.8F}, brdf::Vec3f{0.9999995F, 0, 1e-3F}}) {
         const float pdf = m.eval_pdf(wi, wo, f);
         if (!(std::isfinite(pdf) && pdf >= 0)) std::abort();
         for (const float v : f)

@@ -20,8 +20,8 @@ std::vector<std::pair<Vec3f, Vec3f>> pairs() {
     constexpr double degree = std::numbers::pi / 180;
     return test::direction_at(std::cos(degrees * degree), phi_degrees * degree);
   };
-  return {{at(0, 0), at(0, 0)},     {at(30, 0), at(30, 180)},  {at(30, 0), at(33, 170)},  {at(45, 20), at(45, 20)},
-          {at(60, 0), at(20, 90)},  {at(20, 90), at(60, 0)},   {at(70, 10), at(70, 190)}, {at(80, 0), at(75, 150)},
+  return {{at(0, 0), at(0, 0)},     {at(30, 0), at(30, 180)},   {at(30, 0), at(33, 170)},  {at(45, 20), at(45, 20)},
+          {at(60, 0), at(20, 90)},  {at(20, 90), at(60, 0)},    {at(70, 10), at(70, 190)}, {at(80, 0), at(75, 150)},
           {at(10, 300), at(55, 0)}, {at(50, 120), at(65, 250)}, {at(5, 0), at(12, 200)},   {at(84, 40), at(30, 80)}};
 }
 
@@ -36,11 +36,13 @@ using Evaluator = std::function<std::vector<double>(const Vec3f& wi, const Vec3f
 /// The basis summed in double.
 Evaluator direct(const std::vector<std::byte>& file) {
   const container::Content content = container::unpack(file, {}, true).content;
-  const auto coefficients = residual::dequantise(content.residual, content.component.transform, content.residual.layers.size());
+  const auto coefficients =
+      residual::dequantise(content.residual, content.component.transform, content.residual.layers.size());
   return [lobes = content.lobes, coefficients, empty = content.residual.empty()](const Vec3f& wi, const Vec3f& wo) {
     std::vector<double> f(static_cast<std::size_t>(lobes.channels));
     eval_lobes(lobes, Vec3d(wi), Vec3d(wo), f);
-    for (std::size_t c = 0; !empty && c < f.size(); ++c) f[c] = test::direct_value(coefficients, f[c], c, Vec3d(wi), Vec3d(wo));
+    for (std::size_t c = 0; !empty && c < f.size(); ++c)
+      f[c] = test::direct_value(coefficients, f[c], c, Vec3d(wi), Vec3d(wo));
     return f;
   };
 }
@@ -62,7 +64,9 @@ void evaluate(std::span<const std::byte> bytes, std::vector<Expectation>& rows) 
   std::map<std::pair<std::string, int>, Evaluator> evaluators;
   for (Expectation& row : rows) {
     auto& f = evaluators[{row.level, row.refinements}];
-    if (!f) f = row.level == "direct" ? direct(cut(bytes, row.refinements)) : tabulated(cut(bytes, row.refinements), row.level);
+    if (!f)
+      f = row.level == "direct" ? direct(cut(bytes, row.refinements))
+                                : tabulated(cut(bytes, row.refinements), row.level);
     row.f = f(row.wi, row.wo);
   }
 }

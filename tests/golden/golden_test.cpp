@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// Files of earlier versions stay readable for ever: what data/golden holds must decode to what it decoded to when it was
-// written. Files are added, never replaced. New ones: BRDF_GOLDEN_WRITE=data/golden brdf_golden_tests
+// Files of earlier versions stay readable for ever: what data/golden holds must decode to what it decoded to when it
+// was written. Files are added, never replaced. New ones: BRDF_GOLDEN_WRITE=data/golden brdf_golden_tests
 #include "golden/make_golden.h"
 #include "support/direct_basis.h"
 #include "support/small_measurement.h"
@@ -136,7 +136,9 @@ TEST(GoldenGenerator, MakesSoundFiles) {
       double error = 0, coarse_error = 0;
       std::vector<double> f(3);
       for (const Expectation& row : rows) {
-        if (row.level != "direct" || row.wi.z < 0.2F || row.wo.z < 0.2F || !reference.eval(Vec3d(row.wi), Vec3d(row.wo), f)) continue;
+        if (row.level != "direct" || row.wi.z < 0.2F || row.wo.z < 0.2F ||
+            !reference.eval(Vec3d(row.wi), Vec3d(row.wo), f))
+          continue;
         double& sum = row.refinements == 3 ? error : coarse_error;
         for (std::size_t c = 0; c < 3; ++c)
           if (row.refinements == 3 || row.refinements == 0) sum += std::abs(std::log(row.f[c] / f[c]));
@@ -146,7 +148,8 @@ TEST(GoldenGenerator, MakesSoundFiles) {
     if (folder == nullptr) continue;
     const fs::path file = fs::path(folder) / (name + ".brdfc");
     ASSERT_FALSE(fs::exists(file)) << file << ": golden files are never replaced";
-    std::ofstream(file, std::ios::binary).write(reinterpret_cast<const char*>(bytes.data()), static_cast<std::streamsize>(bytes.size()));
+    std::ofstream(file, std::ios::binary)
+        .write(reinterpret_cast<const char*>(bytes.data()), static_cast<std::streamsize>(bytes.size()));
     std::ofstream(fs::path(file).replace_extension(".txt")) << to_text(rows);
   }
 }

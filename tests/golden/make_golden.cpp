@@ -47,7 +47,8 @@ Content frame(const Measurement& m, bool reciprocal) {
 /// Quantised with one step and split into layers.
 encode::Quantised quantised(const Measurement& m, const Content& c, std::uint32_t count, int step_code) {
   const residual::Basis basis = residual::basis_of(c.residual.basis);
-  const auto order = residual::coefficient_order(residual::order_shapes[c.residual.basis.shape], c.residual.reciprocal, count);
+  const auto order =
+      residual::coefficient_order(residual::order_shapes[c.residual.basis.shape], c.residual.reciprocal, count);
   const encode::Bins bins = encode::sample_bins(m, c.lobes, basis, 30, 18, 12);
   const encode::ErrorModel model =
       encode::cell_model(bins, encode::cell_weights(bins, basis.epsilon, {}), basis, order, c.component.transform);
@@ -56,14 +57,16 @@ encode::Quantised quantised(const Measurement& m, const Content& c, std::uint32_
 }
 
 void add_layers(Content& c, const Measurement& m, std::uint32_t count, int step_code, int layers) {
-  c.residual = encode::make_layers(quantised(m, c, count, step_code), c.residual.basis, c.residual.reciprocal, step_code, layers);
+  c.residual = encode::make_layers(quantised(m, c, count, step_code), c.residual.basis, c.residual.reciprocal,
+                                   step_code, layers);
 }
 
 /// A coarse layer, then one that begins again with what the coarse one rounded away.
 void add_restart(Content& c, const Measurement& m, std::uint32_t count, int coarse, int fine) {
   const encode::Quantised target = quantised(m, c, count, fine);
   const double ratio = residual::step_of(coarse) / residual::step_of(fine);
-  residual::Layer first{static_cast<std::uint8_t>(coarse), false, {}, {}}, second{static_cast<std::uint8_t>(fine), true, {}, {}};
+  residual::Layer first{static_cast<std::uint8_t>(coarse), false, {}, {}},
+      second{static_cast<std::uint8_t>(fine), true, {}, {}};
   for (std::size_t channel = 0; channel < target.q.size(); ++channel) {
     std::vector<std::int32_t> a, b;
     for (std::uint32_t j = 0; j < target.end[channel]; ++j) {

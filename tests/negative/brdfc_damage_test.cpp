@@ -68,7 +68,8 @@ TEST(BrdfcDamage, BytesAfterTheEndAreMalformed) {
   auto bytes = pack(test::layered_content());
   bytes.push_back(std::byte{0});
   for (const bool allow_prefix : {false, true})
-    test::expect_error(ErrorCode::malformed, {std::to_string(bytes.size()).c_str(), std::to_string(bytes.size() - 1).c_str()},
+    test::expect_error(ErrorCode::malformed,
+                       {std::to_string(bytes.size()).c_str(), std::to_string(bytes.size() - 1).c_str()},
                        [&] { unpack(bytes, limits, allow_prefix); });
 }
 
@@ -88,7 +89,8 @@ TEST(BrdfcDamage, ChunksOfAnotherFileDoNotFit) {
   ASSERT_EQ(a.size(), b.size()) << "the case needs files of one layout";
   ASSERT_EQ(ends_a, ends_b);
   auto mixed = a;
-  std::copy(b.begin() + static_cast<std::ptrdiff_t>(ends_b[0]), b.end(), mixed.begin() + static_cast<std::ptrdiff_t>(ends_a[0]));
+  std::copy(b.begin() + static_cast<std::ptrdiff_t>(ends_b[0]), b.end(),
+            mixed.begin() + static_cast<std::ptrdiff_t>(ends_a[0]));
   ASSERT_NE(mixed, a);
   test::expect_error(ErrorCode::checksum, {"residual"}, [&] { unpack(mixed, limits, false); });
 }

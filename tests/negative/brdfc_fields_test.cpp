@@ -25,7 +25,8 @@ void read(const FileParts& parts, const DecodeLimits& limits = {}) { unpack(part
 void set_bits(std::byte& b, unsigned bits) { b |= static_cast<std::byte>(bits); }
 
 TEST(BrdfcFields, PartsBuildTheSameFile) {
-  for (const Content& c : {test::layered_content(), test::spectral_content(), test::scalar_content(), test::lobes_content()}) {
+  for (const Content& c :
+       {test::layered_content(), test::spectral_content(), test::scalar_content(), test::lobes_content()}) {
     const auto bytes = pack(c);
     ASSERT_EQ(test::parts_of(bytes).build(), bytes) << "or none of these tests tests what it says";
   }
@@ -97,7 +98,8 @@ TEST(BrdfcFields, WavelengthsMustAscendAndBeNumbers) {
     return p;
   };
   EXPECT_NO_THROW(read(with(2, 501.0F)));
-  for (const float nm : {450.0F, 449.0F, -1.0F, std::numeric_limits<float>::quiet_NaN(), std::numeric_limits<float>::infinity()})
+  for (const float nm :
+       {450.0F, 449.0F, -1.0F, std::numeric_limits<float>::quiet_NaN(), std::numeric_limits<float>::infinity()})
     expect_error(ErrorCode::malformed, {"wavelength 2"}, [&] { read(with(2, nm)); });
   expect_error(ErrorCode::malformed, {"wavelength 0"}, [&] { read(with(0, 0.0F)); });
   FileParts p = spectral();
@@ -129,7 +131,8 @@ TEST(BrdfcFields, UnknownOptionalChunksAreSkipped) {
   const Unpacked expected = unpack(plain, {}, false);
   for (std::size_t place = 1; place <= 5; ++place) {
     FileParts p = layered();
-    p.chunks.insert(p.chunks.begin() + static_cast<std::ptrdiff_t>(place), ChunkParts{0x8F, {std::byte{1}, std::byte{2}}, std::nullopt});
+    p.chunks.insert(p.chunks.begin() + static_cast<std::ptrdiff_t>(place),
+                    ChunkParts{0x8F, {std::byte{1}, std::byte{2}}, std::nullopt});
     const Unpacked found = unpack(p.build(), {}, false);
     EXPECT_EQ(pack(found.content), plain) << place;
     EXPECT_EQ(found.refinements_read, expected.refinements_read);

@@ -121,6 +121,16 @@ TEST(BrdfcLimits, CoefficientsOfManyChannels) {
   expect_error(ErrorCode::limit_exceeded, {"coefficients"}, [&] { read(p, limits); });
 }
 
+// Every layer may begin again, so that the sum over the layers counts.
+TEST(BrdfcLimits, CoefficientsOfAllLayers) {
+  constexpr std::uint64_t needed = 4 * 60 * 3 * (1 + 3);  // bytes * count * channels * (contexts and three layers)
+  DecodeLimits limits;
+  limits.max_table_bytes = needed;
+  EXPECT_NO_THROW(read(layered(), limits));
+  limits.max_table_bytes = needed - 1;
+  expect_error(ErrorCode::limit_exceeded, {std::to_string(needed).c_str()}, [&] { read(layered(), limits); });
+}
+
 TEST(BrdfcLimits, TablesOfALevel) {
   const auto bytes = pack(test::layered_content());
   DecodeOptions options;

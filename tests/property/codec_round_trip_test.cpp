@@ -24,11 +24,12 @@ using residual::Layer;
 
 /// Mostly small, sometimes as large as the format allows.
 rc::Gen<std::int32_t> coefficient() {
-  return rc::gen::weightedOneOf<std::int32_t>({{12, rc::gen::just(0)},
-                                               {8, rc::gen::inRange(-3, 4)},
-                                               {2, rc::gen::inRange(-20, 21)},
-                                               {1, rc::gen::element(15, -15, 16, -16)},
-                                               {1, rc::gen::inRange(-residual::max_magnitude, residual::max_magnitude + 1)}});
+  return rc::gen::weightedOneOf<std::int32_t>(
+      {{12, rc::gen::just(0)},
+       {8, rc::gen::inRange(-3, 4)},
+       {2, rc::gen::inRange(-20, 21)},
+       {1, rc::gen::element(15, -15, 16, -16)},
+       {1, rc::gen::inRange(-residual::max_magnitude, residual::max_magnitude + 1)}});
 }
 
 residual::ResidualCode any_residual(int channels, bool reciprocal) {
@@ -47,8 +48,8 @@ residual::ResidualCode any_residual(int channels, bool reciprocal) {
     layer.step = *rc::gen::arbitrary<std::uint8_t>();
     layer.restart = *rc::gen::arbitrary<bool>();
     for (int c = 0; c < channels; ++c) {
-      const std::uint32_t begin =
-          residual::layer_begin(code.layers.empty() ? nullptr : &code.layers.back(), layer, static_cast<std::size_t>(c));
+      const std::uint32_t begin = residual::layer_begin(code.layers.empty() ? nullptr : &code.layers.back(), layer,
+                                                        static_cast<std::size_t>(c));
       const auto length = static_cast<std::size_t>(*rc::gen::inRange(0, 60));
       layer.end.push_back(begin + static_cast<std::uint32_t>(length));
       layer.q.push_back(*rc::gen::container<std::vector<std::int32_t>>(length, coefficient()));
@@ -77,7 +78,8 @@ LobeSet any_lobes(int channels) {
 
 Content any_content() {
   Content c;
-  c.component.channels.model = *rc::gen::element(ChannelModel::rgb, ChannelModel::xyz, ChannelModel::spectral, ChannelModel::scalar);
+  c.component.channels.model =
+      *rc::gen::element(ChannelModel::rgb, ChannelModel::xyz, ChannelModel::spectral, ChannelModel::scalar);
   c.component.channels.count = 3;
   if (c.component.channels.model == ChannelModel::scalar) c.component.channels.count = 1;
   if (c.component.channels.model == ChannelModel::spectral) {
@@ -86,7 +88,8 @@ Content any_content() {
       c.component.channels.wavelengths_nm.push_back(380.0F + 10.0F * static_cast<float>(i) + 0.1F);
   }
   c.component.reciprocal = *rc::gen::arbitrary<bool>();
-  c.component.transform = static_cast<residual::ChannelTransform>(*rc::gen::inRange(0, residual::channel_transform_count));
+  c.component.transform =
+      static_cast<residual::ChannelTransform>(*rc::gen::inRange(0, residual::channel_transform_count));
   c.lobes = any_lobes(c.component.channels.count);
   c.residual = any_residual(c.component.channels.count, c.component.reciprocal);
   if (*rc::gen::arbitrary<bool>()) {
@@ -158,7 +161,8 @@ RC_GTEST_PROP(CodecRoundTrip, EveryDecodedMaterialEvaluatesToNumbers, ()) {
   const Material m = Material::decode(container::pack(any_content()));
   std::vector<float> f(static_cast<std::size_t>(m.channels()));
   const auto direction = [] {
-    const double z = *rc::gen::inRange(1, 1001) / 1000.0, phi = *rc::gen::inRange(0, 6283) / 1000.0, s = std::sqrt(1 - z * z);
+    const double z = *rc::gen::inRange(1, 1001) / 1000.0, phi = *rc::gen::inRange(0, 6283) / 1000.0,
+                 s = std::sqrt(1 - z * z);
     return Vec3f(static_cast<float>(s * std::cos(phi)), static_cast<float>(s * std::sin(phi)), static_cast<float>(z));
   };
   const Vec3f wi = direction(), wo = direction();

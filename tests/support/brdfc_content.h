@@ -88,7 +88,8 @@ inline container::Content lobes_content() {
 inline container::Content layered_content(bool reciprocal = true) {
   container::Content c = lobes_content();
   c.component.reciprocal = reciprocal;
-  c.residual = residual_of(3, reciprocal, {{40, false, {12, 6, 4}}, {40, false, {40, 20, 4}}, {44, false, {60, 35, 10}}});
+  c.residual =
+      residual_of(3, reciprocal, {{40, false, {12, 6, 4}}, {40, false, {40, 20, 4}}, {44, false, {60, 35, 10}}});
   c.errors = {{0, EvalLevel::fast, 0.031, 31.3}};
   for (int i = 1; i <= 3; ++i)
     for (const EvalLevel level : {EvalLevel::balanced, EvalLevel::exact})

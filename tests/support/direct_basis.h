@@ -59,7 +59,8 @@ inline double direct_log_ratio(const residual::Coefficients& c, std::size_t chan
 }
 
 /// f of channel `channel` without any grid.
-inline double direct_value(const residual::Coefficients& c, double lobes, std::size_t channel, const Vec3d& wi, const Vec3d& wo) {
+inline double direct_value(const residual::Coefficients& c, double lobes, std::size_t channel, const Vec3d& wi,
+                           const Vec3d& wo) {
   const double epsilon = residual::epsilon_of(c.basis.epsilon);
   return std::max(0.0, (lobes + epsilon) * std::exp(direct_log_ratio(c, channel, residual_angles(wi, wo))) - epsilon);
 }

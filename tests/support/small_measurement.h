@@ -29,7 +29,8 @@ Measurement small_measurement(const TableShape& shape, int channels, Value&& val
   if (channels == 1) m.channels.model = ChannelModel::scalar;
   if (channels != 1 && channels != 3) {
     m.channels.model = ChannelModel::spectral;
-    for (int c = 0; c < channels; ++c) m.channels.wavelengths_nm.push_back(static_cast<float>(400 + 300 * c / channels));
+    for (int c = 0; c < channels; ++c)
+      m.channels.wavelengths_nm.push_back(static_cast<float>(400 + 300 * c / channels));
   }
   m.provenance = {"formula", "MERL", "values of a formula", "CC0", 42, 1234};
   HalfDifferenceTable t;
@@ -72,9 +73,11 @@ inline Measurement bumpy_measurement(const TableShape& shape = {}, int channels 
   return small_measurement(shape, channels, [&](const Vec3d& wi, const Vec3d& wo, std::span<double> f) {
     eval_lobes(lobes, wi, wo, f);
     const auto hd = geometry::half_difference(wi, wo);
-    const double bumps = 1 + 0.3 * std::cos(9 * hd.sin_theta_h) * hd.cos_theta_d + 0.2 * hd.sin_theta_d * hd.sin_theta_d;
+    const double bumps =
+        1 + 0.3 * std::cos(9 * hd.sin_theta_h) * hd.cos_theta_d + 0.2 * hd.sin_theta_d * hd.sin_theta_d;
     const double slant = 1 + tilt * hd.cos_phi_d * hd.sin_theta_h * hd.sin_theta_d;
-    for (std::size_t c = 0; c < f.size(); ++c) f[c] *= bumps * slant * (1 + 0.05 * static_cast<double>(c) * hd.sin_theta_h);
+    for (std::size_t c = 0; c < f.size(); ++c)
+      f[c] *= bumps * slant * (1 + 0.05 * static_cast<double>(c) * hd.sin_theta_h);
   });
 }
 

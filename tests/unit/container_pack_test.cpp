@@ -6,6 +6,8 @@
 #include "support/brdfc_content.h"
 #include "support/expect_error.h"
 
+#include <brdf/material.h>
+
 #include <gtest/gtest.h>
 
 #include <cstdint>
@@ -146,7 +148,8 @@ TEST(Pack, ContentsThatNobodyCouldReadAreRefused) {
   expect_refused("ends", [](Content& c) { c.residual.layers[1].end[0] -= 1; });
   expect_refused("ends", [](Content& c) { c.residual.layers[1].end[0] = 3; });
   expect_refused("too large", [](Content& c) { c.residual.layers[1].q[0][0] = residual::max_magnitude + 1; });
-  expect_refused("too large", [](Content& c) { c.residual.layers[1].q[0][0] = std::numeric_limits<std::int32_t>::min(); });
+  expect_refused("too large",
+                 [](Content& c) { c.residual.layers[1].q[0][0] = std::numeric_limits<std::int32_t>::min(); });
 }
 
 TEST(Boundaries, AreThePrefixesThatDecode) {
@@ -161,6 +164,7 @@ TEST(Boundaries, AreThePrefixesThatDecode) {
     EXPECT_EQ(read.total_bytes, bytes.size());
     EXPECT_EQ(read.content.errors.size(), 1 + 2 * i);
     EXPECT_EQ(boundaries(prefix, limits), ends);  // the header alone says it
+    EXPECT_EQ(refinement_boundaries(prefix, limits), ends);
     test::expect_error(ErrorCode::truncated, {"prefix"}, [&] { unpack(prefix, limits, false); });
   }
   EXPECT_LT(ends.back(), bytes.size());  // the provenance comes last
@@ -216,8 +220,8 @@ TEST(Varint, LongerFormsAreMalformed) {
     for (const int b : v) out.push_back(static_cast<std::byte>(b));
     return out;
   };
-  for (const auto& wrong : {bytes({0x80, 0x00}), bytes({0xFF, 0x80, 0x00}),
-                            bytes({0x80, 0x80, 0x80, 0x80, 0x80, 0x80, 0x80, 0x80, 0x01})})
+  for (const auto& wrong :
+       {bytes({0x80, 0x00}), bytes({0xFF, 0x80, 0x00}), bytes({0x80, 0x80, 0x80, 0x80, 0x80, 0x80, 0x80, 0x80, 0x01})})
     test::expect_error(ErrorCode::malformed, {"shortest"}, [&] { read_back(wrong); });
   test::expect_error(ErrorCode::truncated, {"number"}, [&] { read_back(bytes({0x80})); });
 }

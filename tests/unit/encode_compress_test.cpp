@@ -79,7 +79,8 @@ TEST(Compress, SizesHoldWithProvenanceToo) {
 
 TEST(Compress, SizesThatHoldNothingAreRefused) {
   for (const std::uint64_t size : {0U, 1U, 16U})
-    expect_error(ErrorCode::target_not_met, {"smallest file"}, [&] { compress(bumpy_measurement(), quick_size(size)); });
+    expect_error(ErrorCode::target_not_met, {"smallest file"},
+                 [&] { compress(bumpy_measurement(), quick_size(size)); });
 }
 
 TEST(Compress, BytesDoNotDependOnThreads) {
@@ -132,7 +133,8 @@ TEST(Compress, TablesOfTheFullCircleKeepTheirDirection) {
 
 TEST(Compress, ErrorTargetsAreMet) {
   const Measurement m = bumpy_measurement();
-  for (const ErrorTarget target : {ErrorTarget{Metric::log_mae, 0.02}, ErrorTarget{Metric::log_mae, 0.006}, ErrorTarget{Metric::psnr_env, 32}}) {
+  for (const ErrorTarget target :
+       {ErrorTarget{Metric::log_mae, 0.02}, ErrorTarget{Metric::log_mae, 0.006}, ErrorTarget{Metric::psnr_env, 32}}) {
     EncodeOptions o = quick();
     o.target_error = target;
     const EncodeResult r = compress(m, o);
@@ -201,9 +203,8 @@ TEST(Compress, TablesWithoutAMeasurementHaveNoData) {
 }
 
 TEST(Compress, BlackTables) {
-  const Measurement m = test::small_measurement({12, 6, 8}, 3, [](const Vec3d&, const Vec3d&, std::span<double> f) {
-    std::fill(f.begin(), f.end(), 0.0);
-  });
+  const Measurement m = test::small_measurement(
+      {12, 6, 8}, 3, [](const Vec3d&, const Vec3d&, std::span<double> f) { std::fill(f.begin(), f.end(), 0.0); });
   try {
     const Material material = decoded(compress(m, quick()));
     float f[3];
@@ -226,9 +227,8 @@ TEST(Compress, CanBeCancelledAtEveryStage) {
   ASSERT_GT(calls, 2);
   for (int stop = 1; stop <= calls; ++stop) {
     int seen = 0;
-    expect_error(ErrorCode::cancelled, {}, [&] {
-      compress(m, quick_size(300), [&](std::string_view, double) { return ++seen < stop; });
-    });
+    expect_error(ErrorCode::cancelled, {},
+                 [&] { compress(m, quick_size(300), [&](std::string_view, double) { return ++seen < stop; }); });
   }
 }
 
@@ -245,7 +245,12 @@ TEST(EncodeOptions, InvalidOnesAreRefusedWithAReason) {
   refused([](EncodeOptions& o) { o.effort = -1; }, "effort");
   refused([](EncodeOptions& o) { o.effort = 101; }, "effort");
   refused([](EncodeOptions& o) { o.threads = 0; }, "threads");
-  refused([](EncodeOptions& o) { o.target_size = 100; o.target_error = ErrorTarget{}; }, "exclude");
+  refused(
+      [](EncodeOptions& o) {
+        o.target_size = 100;
+        o.target_error = ErrorTarget{};
+      },
+      "exclude");
   refused([](EncodeOptions& o) { o.target_error = ErrorTarget{Metric::log_mae, -1}; }, "target error");
   refused([](EncodeOptions& o) { o.target_error = ErrorTarget{Metric::log_mae, std::nan("")}; }, "target error");
   EXPECT_TRUE(EncodeOptions{}.is_valid());

@@ -35,7 +35,8 @@ struct Setting {
 
 Setting setting(bool reciprocal, int channels, std::uint32_t count) {
   const Measurement m = test::bumpy_measurement({20, 10, 12, !reciprocal}, channels, 0.4);
-  Setting s{sample_bins(m, simple_lobes(channels), residual::basis_of(codes), 7, 6, 8), {},
+  Setting s{sample_bins(m, simple_lobes(channels), residual::basis_of(codes), 7, 6, 8),
+            {},
             residual::coefficient_order(residual::order_shapes[codes.shape], reciprocal, count),
             channels == 3 ? ChannelTransform::opponent : ChannelTransform::cosine};
   test::Lcg random(3);
@@ -48,7 +49,8 @@ std::vector<double> basis_at(const Setting& s, std::size_t cell) {
   const auto np = static_cast<std::size_t>(s.bins.n_p), nd = static_cast<std::size_t>(s.bins.n_d);
   const std::size_t p = cell % np, d = cell / np % nd, h = cell / np / nd;
   const residual::Basis b = residual::basis_of(codes);
-  const double window = s.bins.sin_h[h] / std::hypot(s.bins.sin_h[h], b.window_h) * s.bins.sin_d[d] / std::hypot(s.bins.sin_d[d], b.window_d);
+  const double window = s.bins.sin_h[h] / std::hypot(s.bins.sin_h[h], b.window_h) * s.bins.sin_d[d] /
+                        std::hypot(s.bins.sin_d[d], b.window_d);
   std::vector<double> v;
   for (const residual::Frequency& f : s.order)
     v.push_back(std::cos(std::numbers::pi * f.k * s.bins.u_h[h]) * std::cos(std::numbers::pi * f.l * s.bins.u_d[d]) *
@@ -142,7 +144,8 @@ TEST(Bins, ValuesAreTheLogRatioOfTheMeasurement) {
   }
   EXPECT_GT(valid, b.cells() / 3);
   for (std::size_t cell = 0; cell < b.cells(); ++cell)
-    EXPECT_TRUE(b.valid[cell] != 0 || std::min(b.cos_i[cell], b.cos_o[cell]) < 0.2) << "a cell well above the horizon is empty";
+    EXPECT_TRUE(b.valid[cell] != 0 || std::min(b.cos_i[cell], b.cos_o[cell]) < 0.2)
+        << "a cell well above the horizon is empty";
 }
 
 TEST(Bins, HalfCircleTablesAreMirroredInPhi) {

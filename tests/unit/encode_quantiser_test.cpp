@@ -23,7 +23,8 @@ ErrorModel model_of(std::uint32_t count) {
   const residual::Basis basis = residual::basis_of(codes);
   const Bins bins = sample_bins(m, lobes, basis, 18, 12, 8);
   return cell_model(bins, cell_weights(bins, basis.epsilon, {}), basis,
-                    residual::coefficient_order(residual::order_shapes[0], true, count), residual::ChannelTransform::opponent);
+                    residual::coefficient_order(residual::order_shapes[0], true, count),
+                    residual::ChannelTransform::opponent);
 }
 
 std::vector<std::vector<double>> dequantised(const Quantised& q, double step) {
@@ -70,7 +71,8 @@ TEST(Quantise, PassesLowerTheCost) {
   const ErrorModel model = model_of(300);
   const auto start = solve_coefficients(model);
   double mean_diagonal = 0;
-  for (std::size_t i = 0; i < model.size; ++i) mean_diagonal += model.gram[i * model.size + i] / static_cast<double>(model.size);
+  for (std::size_t i = 0; i < model.size; ++i)
+    mean_diagonal += model.gram[i * model.size + i] / static_cast<double>(model.size);
   for (const double step : {0.5, 0.12, 0.03}) {
     const double lambda = 0.12 * step * step * mean_diagonal;
     const auto cost = [&](int passes) {

@@ -46,11 +46,13 @@ void expect_round_trip(const ResidualCode& code) {
 TEST(Layers, OneLayer) { expect_round_trip(residual_of(3, true, {{64, false, {100, 50, 20}}})); }
 
 TEST(Layers, LayersThatGoOn) {
-  expect_round_trip(residual_of(3, false, {{64, false, {10, 5, 0}}, {64, false, {80, 5, 30}}, {70, false, {200, 90, 31}}}));
+  expect_round_trip(
+      residual_of(3, false, {{64, false, {10, 5, 0}}, {64, false, {80, 5, 30}}, {70, false, {200, 90, 31}}}));
 }
 
 TEST(Layers, LayersThatBeginAgain) {
-  expect_round_trip(residual_of(2, true, {{20, false, {30, 10}}, {40, true, {60, 20}}, {40, false, {90, 20}}, {60, true, {10, 90}}}));
+  expect_round_trip(
+      residual_of(2, true, {{20, false, {30, 10}}, {40, true, {60, 20}}, {40, false, {90, 20}}, {60, true, {10, 90}}}));
 }
 
 TEST(Layers, EmptyLayerAndEmptyChannels) {
@@ -126,9 +128,9 @@ TEST(Layers, MissingBytesAreMalformed) {
 TEST(Dequantise, AddsLayersUpAndStopsWhereAsked) {
   ResidualCode code;
   code.channels = 2;
-  code.layers.push_back({32, false, {3, 1}, {{4, 0, -2}, {1}}});     // step 2^(4 - 4) = 1
-  code.layers.push_back({40, false, {4, 1}, {{6}, {}}});             // 1/2
-  code.layers.push_back({48, true, {2, 3}, {{1, -1}, {0, 0, 8}}});   // 1/4, from the beginning
+  code.layers.push_back({32, false, {3, 1}, {{4, 0, -2}, {1}}});    // step 2^(4 - 4) = 1
+  code.layers.push_back({40, false, {4, 1}, {{6}, {}}});            // 1/2
+  code.layers.push_back({48, true, {2, 3}, {{1, -1}, {0, 0, 8}}});  // 1/4, from the beginning
   const Coefficients all = dequantise(code, ChannelTransform::identity, 3);
   EXPECT_EQ(all.order.size(), 4U);
   EXPECT_EQ(all.values[0], (std::vector<float>{4.25F, -0.25F, -2, 3}));

@@ -15,9 +15,7 @@ namespace brdf::residual {
 namespace {
 
 /// IEEE 754 binary16 read as its definition says.
-double half_value(std::uint16_t h) {
-  return std::ldexp(1024 + (h & 0x3ff), static_cast<int>(h >> 10) - 25);
-}
+double half_value(std::uint16_t h) { return std::ldexp(1024 + (h & 0x3ff), static_cast<int>(h >> 10) - 25); }
 
 TEST(HalfFloat, ReadsEveryPositiveNormal) {
   for (std::uint16_t h = half_min_normal; h <= half_max; ++h) {

@@ -24,8 +24,7 @@ std::vector<Key> sorted_by_brute_force(const OrderShape& shape, bool even) {
   std::vector<Key> all;
   for (int k = 0; k < max_k; ++k)
     for (int l = 0; l < max_l; ++l)
-      for (int m = 0; m < max_m; m += even ? 2 : 1)
-        all.emplace_back(shape.k * k + shape.l * l + shape.m * m, m, l, k);
+      for (int m = 0; m < max_m; m += even ? 2 : 1) all.emplace_back(shape.k * k + shape.l * l + shape.m * m, m, l, k);
   std::sort(all.begin(), all.end());
   return all;
 }
@@ -90,9 +89,10 @@ TEST(OrderExtent, IsOnePastTheLargest) {
 
 TEST(Contexts, ClassesHaveTheirBounds) {
   const std::vector<int> activity{0, 1, 2, 3, 4, 4, 5, 5, 5, 6, 6, 6, 6, 6, 7, 7};
-  for (std::size_t v = 0; v < activity.size(); ++v) EXPECT_EQ(activity_class(static_cast<std::uint32_t>(v)), activity[v]) << v;
+  for (std::size_t v = 0; v < activity.size(); ++v)
+    EXPECT_EQ(activity_class(static_cast<std::uint32_t>(v)), activity[v]) << v;
   EXPECT_EQ(activity_class(1000000), 7);
-  const std::vector<std::pair<std::uint32_t, int>> radius{{0, 0},  {5, 0},  {6, 1},  {11, 1}, {12, 2},   {23, 2},
+  const std::vector<std::pair<std::uint32_t, int>> radius{{0, 0},  {5, 0},  {6, 1},  {11, 1}, {12, 2}, {23, 2},
                                                           {24, 3}, {47, 3}, {48, 4}, {95, 4}, {96, 5}, {16383, 5}};
   for (const auto& [j, expected] : radius) EXPECT_EQ(radius_class(j), expected) << j;
 }

@@ -32,7 +32,8 @@ std::vector<std::byte> encode_bits(const std::vector<bool>& bits, std::uint32_t 
 void expect_same_bits(const std::vector<bool>& bits, std::span<const std::byte> bytes, std::uint32_t p1 = 32768) {
   RangeDecoder coder(bytes);
   AdaptiveBit model(p1);
-  for (std::size_t i = 0; i < bits.size(); ++i) ASSERT_EQ(coder.bit(model), bits[i]) << "bit " << i << " of " << bits.size();
+  for (std::size_t i = 0; i < bits.size(); ++i)
+    ASSERT_EQ(coder.bit(model), bits[i]) << "bit " << i << " of " << bits.size();
   EXPECT_LE(coder.overrun(), 4U) << "a decoder takes such a stream for damaged";
 }
 
@@ -120,7 +121,7 @@ TEST(RangeCoder, SizeIsNearTheEntropy) {
     constexpr std::size_t n = 40000;
     const double bits = 8.0 * static_cast<double>(encode_bits(random_bits(n, p1, 11)).size());
     const double ideal = n * entropy(p1);
-    EXPECT_GT(bits, 0.97 * ideal) << p1;  // less would mean that something was lost
+    EXPECT_GT(bits, 0.97 * ideal) << p1;       // less would mean that something was lost
     EXPECT_LT(bits, 1.05 * ideal + 40) << p1;  // the rate of 1/43 never settles
   }
 }
@@ -220,7 +221,8 @@ TEST(CoefficientModel, CostIsWhatTheCoderSpends) {
   Lcg random(9);
   for (int i = 0; i < 3000; ++i) {
     const bool first = random.below(2) == 0;
-    const auto activity = static_cast<int>(random.below(activity_classes)), radius = static_cast<int>(random.below(radius_classes));
+    const auto activity = static_cast<int>(random.below(activity_classes)),
+               radius = static_cast<int>(random.below(radius_classes));
     const auto v = static_cast<std::int32_t>(random.below(i % 3 == 0 ? 6 : 3)) * (random.below(2) == 0 ? 1 : -1);
     const double stated = model.cost(first, activity, radius, std::abs(v));
     BitMeter meter;

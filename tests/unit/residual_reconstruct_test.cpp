@@ -16,8 +16,8 @@ using test::direct_log_ratio;
 using test::ResidualAngles;
 
 Coefficients coefficients_of(int channels, bool reciprocal, ChannelTransform transform, std::uint32_t count) {
-  const ResidualCode code =
-      test::residual_of(channels, reciprocal, {{48, false, std::vector<std::uint32_t>(static_cast<std::size_t>(channels), count)}});
+  const ResidualCode code = test::residual_of(
+      channels, reciprocal, {{48, false, std::vector<std::uint32_t>(static_cast<std::size_t>(channels), count)}});
   return dequantise(code, transform, 1);
 }
 
@@ -35,8 +35,8 @@ void expect_nodes_match(const Coefficients& c, const GridSize& size) {
           return 2 * std::asin(unwarp(static_cast<double>(i) / (n - 1), kappa) / std::numbers::sqrt2);
         };
         const double v = static_cast<double>(p) / (grid.n_p - 1) * (c.reciprocal ? 0.5 : 1.0);
-        const ResidualAngles a{theta(h, grid.n_h, kappa_h_of(c.basis.kappa_h)), theta(d, grid.n_d, kappa_d_of(c.basis.kappa_d)),
-                               std::acos(cos_phi_of(v))};
+        const ResidualAngles a{theta(h, grid.n_h, kappa_h_of(c.basis.kappa_h)),
+                               theta(d, grid.n_d, kappa_d_of(c.basis.kappa_d)), std::acos(cos_phi_of(v))};
         for (int ch = 0; ch < grid.channels; ++ch) {
           const std::size_t at = static_cast<std::size_t>(((h * grid.n_d + d) * grid.n_p + p) * grid.channels + ch);
           const double found = std::log(static_cast<double>(float_from_half(grid.ratio[at])));

@@ -12,7 +12,7 @@ namespace brdf::cli {
 namespace {
 
 double seconds(const EncodeSummary& s) {
-  return s.seconds_sample + s.seconds_fit + s.seconds_residual + s.seconds_verify;
+  return s.seconds_fit + s.seconds_residual + s.seconds_verify;
 }
 
 double ratio(const CompressReport& r, double source_bytes) {
@@ -64,7 +64,7 @@ std::vector<std::string> detail_lines(const CompressReport& r) {
     lines.push_back((lobe.kept ? "  kept     " : "  refused  ") + lobe.sentence);
   }
   lines.push_back("  solver: " + s.fit.solver_message);
-  lines.push_back("  seconds: sample " + fixed(s.seconds_sample, 2) + ", fit " + fixed(s.seconds_fit, 2) +
+  lines.push_back("  seconds: fit " + fixed(s.seconds_fit, 2) +
                   ", residual " + fixed(s.seconds_residual, 2) + ", verify " + fixed(s.seconds_verify, 2));
   return lines;
 }
@@ -110,7 +110,6 @@ Json json_row(const CompressReport& r) {
     row["errors"].push_back(std::move(entry));
   }
   row["seconds"] = seconds(s);
-  row["seconds_sample"] = s.seconds_sample;
   row["seconds_fit"] = s.seconds_fit;
   row["seconds_residual"] = s.seconds_residual;
   row["seconds_verify"] = s.seconds_verify;

@@ -1,7 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "compressed_file.h"
 
-#include "container/content.h"
 #include "exit_codes.h"
 
 #include <algorithm>
@@ -22,7 +21,7 @@ auto naming(const std::string& path, Call call) {
 }  // namespace
 
 std::vector<std::uint64_t> refinement_ends(std::span<const std::byte> bytes, const std::string& path) {
-  return naming(path, [&] { return container::boundaries(bytes, DecodeLimits{}); });
+  return naming(path, [&] { return refinement_boundaries(bytes); });
 }
 
 std::vector<std::byte> cut_to_prefix(std::vector<std::byte> bytes, std::optional<std::uint64_t> prefix,

@@ -44,11 +44,12 @@ struct EncodeOptions {
 
 struct EncodeSummary {
   FitSummary fit;
-  std::uint64_t bytes = 0, lobe_bytes = 0, residual_bytes = 0, overhead_bytes = 0;
-  int refinements = 0, coefficients = 0;
+  std::uint64_t bytes = 0;           ///< of the file: the three below and, if asked for, provenance
+  std::uint64_t lobe_bytes = 0, residual_bytes = 0, overhead_bytes = 0;  ///< overhead: header, directory, checksums
+  int lobes = 0, refinements = 0, coefficients = 0;                      ///< coefficients that are not 0
   bool reciprocal = false;
   std::vector<RecordedError> errors;   ///< of the finished file
-  double seconds_sample = 0, seconds_fit = 0, seconds_residual = 0, seconds_verify = 0;
+  double seconds_fit = 0, seconds_residual = 0, seconds_verify = 0;
   std::string brief() const;
 };
 

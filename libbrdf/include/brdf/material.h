@@ -113,6 +113,10 @@ class Material {
   std::shared_ptr<const Impl> impl_;
 };
 
+/// Lengths at which a `.brdfc` file may be cut: after the lobes and after each refinement. The header alone must be there.
+/// Throws like Material::decode.
+std::vector<std::uint64_t> refinement_boundaries(std::span<const std::byte> bytes, const DecodeLimits& limits = {});
+
 /// Name of the instruction set that batches use now: "scalar", "SSE4", "AVX2", "AVX3" (AVX-512) and so on.
 const char* simd_target() noexcept;
 

@@ -56,6 +56,10 @@ Material Material::decode(std::span<const std::byte> bytes, const DecodeOptions&
   return Material(std::move(impl));
 }
 
+std::vector<std::uint64_t> refinement_boundaries(std::span<const std::byte> bytes, const DecodeLimits& limits) {
+  return container::boundaries(bytes, limits);
+}
+
 Material Material::prepare(EvalLevel level) const {
   if (level == this->level()) return *this;
   const auto* source = static_cast<const Source*>(impl_->source.get());

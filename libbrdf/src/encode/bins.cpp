@@ -30,38 +30,6 @@ Axis axis(int n, double kappa) {
   return a;
 }
 
-/// Running sums of a cell.
-class Averages {
- public:
-  Averages(Bins& bins) : bins_(bins), count_(bins.cells(), 0) {}
-
-  void add(std::size_t cell, const double* f, const double* y) noexcept {
-    ++count_[cell];
-    const auto n = static_cast<std::size_t>(bins_.channels);
-    for (std::size_t c = 0; c < n; ++c) {
-      bins_.f[cell * n + c] += f[c];
-      bins_.y[cell * n + c] += y[c];
-    }
-  }
-  bool empty(std::size_t cell) const noexcept { return count_[cell] == 0; }
-  void finish() noexcept {
-    const auto n = static_cast<std::size_t>(bins_.channels);
-    for (std::size_t cell = 0; cell < count_.size(); ++cell) {
-      // cells of a table may lie above the horizon in a bin whose middle, which gives the weights, does not
-      if (count_[cell] == 0 || std::min(bins_.cos_i[cell], bins_.cos_o[cell]) < lowest_cosine) continue;
-      bins_.valid[cell] = 1;
-      for (std::size_t c = 0; c < n; ++c) {
-        bins_.f[cell * n + c] /= count_[cell];
-        bins_.y[cell * n + c] /= count_[cell];
-      }
-    }
-  }
-
- private:
-  Bins& bins_;
-  std::vector<std::uint32_t> count_;
-};
-
 class LogRatio {
  public:
   LogRatio(const LobeSet& lobes, double epsilon)
@@ -77,44 +45,17 @@ class LogRatio {
   std::vector<double> l_;
 };
 
-void add_table_cells(const HalfDifferenceTable& t, Bins& bins, const residual::Basis& basis, LogRatio& ratio, Averages& out) {
-  const auto n = static_cast<std::size_t>(bins.channels);
-  const double offset = t.position == SamplePosition::centre ? 0.5 : 0.0;
-  const double pi = std::numbers::pi;
-  std::vector<double> f(n), y(n);
-  const auto place = [](double theta, double kappa, int count) {
-    const double u = residual::warp(residual::chord(std::sin(theta), std::cos(theta)), kappa);
-    return std::min(static_cast<int>(u * count), count - 1);
-  };
-  std::size_t cell = 0;
-  for (int i = 0; i < t.n_theta_h; ++i) {
-    const double s = (i + offset) / t.n_theta_h, theta_h = s * s * pi / 2;
-    const int bin_h = place(theta_h, basis.kappa_h, bins.n_h);
-    for (int j = 0; j < t.n_theta_d; ++j) {
-      const double theta_d = (j + offset) / t.n_theta_d * pi / 2;
-      const int bin_d = place(theta_d, basis.kappa_d, bins.n_d);
-      for (int k = 0; k < t.n_phi_d; ++k, ++cell) {
-        if (t.valid[cell] == 0) continue;
-        const double phi = (k + offset) / t.n_phi_d * (t.full_circle ? 2 * pi : pi);
-        Vec3d wi, wo;
-        geometry::directions_from_half_difference(theta_h, theta_d, phi, wi, wo);
-        if (std::min(wi.z, wo.z) < lowest_cosine) continue;
-        for (std::size_t c = 0; c < n; ++c) f[c] = static_cast<double>(t.values[cell * n + c]);
-        ratio(wi, wo, f.data(), y.data());
-        const double folded = std::acos(std::clamp(std::cos(phi), -1.0, 1.0));  // mirror symmetry: |phi_d|
-        const auto base = static_cast<std::size_t>(bins.n_p) *
-                          static_cast<std::size_t>(bin_d + bins.n_d * bin_h);
-        const auto bin_p = std::min(static_cast<std::size_t>(folded / pi * bins.n_p), static_cast<std::size_t>(bins.n_p - 1));
-        out.add(base + bin_p, f.data(), y.data());
-        if (!t.full_circle) out.add(base + static_cast<std::size_t>(bins.n_p) - 1 - bin_p, f.data(), y.data());
-      }
-    }
-  }
+/// Offsets of sub-positions from the middle of a cell, in cells.
+std::vector<double> offsets(int count) {
+  std::vector<double> o;
+  for (int i = 0; i < count; ++i) o.push_back((i + 0.5) / count - 0.5);
+  return o;
 }
 
 }  // namespace
 
-Bins sample_bins(const Measurement& m, const LobeSet& lobes, const residual::Basis& basis, int n_h, int n_d, int n_p) {
+Bins sample_bins(const Measurement& m, const LobeSet& lobes, const residual::Basis& basis, int n_h, int n_d, int n_p,
+                 int substeps) {
   Bins b;
   b.n_h = n_h;
   b.n_d = n_d;
@@ -139,32 +80,41 @@ Bins sample_bins(const Measurement& m, const LobeSet& lobes, const residual::Bas
   b.y.assign(cells * n, 0.0);
 
   LogRatio ratio(lobes, basis.epsilon);
-  Averages averages(b);
-  // the middles first give every cell its geometry; tables with cells of their own are then averaged
+  const MeasurementInterpolator reference(m);
+  const std::vector<double> offset = offsets(substeps);
+  std::vector<double> f(n), y(n);
   std::size_t cell = 0;
-  for (std::size_t i = 0; i < h.u.size(); ++i)
-    for (std::size_t j = 0; j < d.u.size(); ++j)
-      for (std::size_t k = 0; k < b.cos_phi.size(); ++k, ++cell) {
-        const double base = h.cosine[i] * d.cosine[j], tilt = h.sine[i] * d.sine[j] * b.cos_phi[k];
+  for (int i = 0; i < n_h; ++i)
+    for (int j = 0; j < n_d; ++j)
+      for (int k = 0; k < n_p; ++k, ++cell) {
+        const auto ih = static_cast<std::size_t>(i), jd = static_cast<std::size_t>(j), kp = static_cast<std::size_t>(k);
+        const double base = h.cosine[ih] * d.cosine[jd], tilt = h.sine[ih] * d.sine[jd] * b.cos_phi[kp];
         b.cos_i[cell] = base - tilt;
         b.cos_o[cell] = base + tilt;
+        if (std::min(b.cos_i[cell], b.cos_o[cell]) < lowest_cosine) continue;
+        int seen = 0;
+        for (const double oh : offset)
+          for (const double od : offset)
+            for (const double op : offset) {
+              Vec3d wi, wo;
+              geometry::directions_from_half_difference(theta_of((i + 0.5 + oh) / n_h, basis.kappa_h),
+                                                        theta_of((j + 0.5 + od) / n_d, basis.kappa_d),
+                                                        (k + 0.5 + op) / n_p * std::numbers::pi, wi, wo);
+              if (std::min(wi.z, wo.z) < lowest_cosine || !reference.eval(wi, wo, f)) continue;
+              ratio(wi, wo, f.data(), y.data());
+              ++seen;
+              for (std::size_t c = 0; c < n; ++c) {
+                b.f[cell * n + c] += f[c];
+                b.y[cell * n + c] += y[c];
+              }
+            }
+        if (seen == 0) continue;
+        b.valid[cell] = 1;
+        for (std::size_t c = 0; c < n; ++c) {
+          b.f[cell * n + c] /= seen;
+          b.y[cell * n + c] /= seen;
+        }
       }
-  if (const auto* table = std::get_if<HalfDifferenceTable>(&m.table)) add_table_cells(*table, b, basis, ratio, averages);
-  const MeasurementInterpolator reference(m);
-  std::vector<double> f(n), y(n);
-  for (cell = 0; cell < cells; ++cell) {
-    if (!averages.empty(cell) || std::min(b.cos_i[cell], b.cos_o[cell]) < lowest_cosine) continue;
-    const std::size_t k = cell % b.cos_phi.size(), j = cell / b.cos_phi.size() % d.u.size(), i = cell / b.cos_phi.size() / d.u.size();
-    Vec3d wi, wo;
-    const double sin_phi = std::sqrt(std::max(0.0, 1 - b.cos_phi[k] * b.cos_phi[k]));
-    const double x = d.sine[j] * b.cos_phi[k], yy = d.sine[j] * sin_phi, z = d.cosine[j];
-    wi = {h.cosine[i] * x + h.sine[i] * z, yy, h.cosine[i] * z - h.sine[i] * x};
-    wo = {-h.cosine[i] * x + h.sine[i] * z, -yy, h.cosine[i] * z + h.sine[i] * x};
-    if (!reference.eval(wi, wo, f)) continue;
-    ratio(wi, wo, f.data(), y.data());
-    averages.add(cell, f.data(), y.data());
-  }
-  averages.finish();
   return b;
 }
 

@@ -26,8 +26,9 @@ struct Bins {
   std::size_t cells() const noexcept { return cos_i.size(); }
 };
 
-/// Samples a measurement. Tables on half/difference axes are averaged over all their cells, so noise averages out;
-/// others are evaluated at the middles. Reciprocal tables are mirrored so that odd harmonics vanish.
-Bins sample_bins(const Measurement& m, const LobeSet& lobes, const residual::Basis& basis, int n_h, int n_d, int n_p);
+/// Samples a measurement at substeps^3 places of every cell, evenly spread, and averages: noise and detail finer than a
+/// cell average out, and the mean belongs to the middle.
+Bins sample_bins(const Measurement& m, const LobeSet& lobes, const residual::Basis& basis, int n_h, int n_d, int n_p,
+                 int substeps = 1);
 
 }  // namespace brdf::encode

@@ -46,7 +46,7 @@ Candidate::Candidate(const Measurement& m, const container::Content& frame, cons
   const auto order = residual::coefficient_order(residual::order_shapes[codes.shape], reciprocal,
                                                  static_cast<std::uint32_t>(effort.coefficients));
   const MetricMix mix;
-  const Bins bins = sample_bins(m, lobes, basis, effort.bins_h, effort.bins_d, effort.bins_p);
+  const Bins bins = sample_bins(m, lobes, basis, effort.bins_h, effort.bins_d, effort.bins_p, effort.substeps);
   model_ = cell_model(bins, cell_weights(bins, basis.epsilon, mix), basis, order, frame_.component.transform);
   if (effort.image_quality > 0)
     add_environment(model_, m, lobes, queries, basis, order, frame_.component.transform, mix.environment);

@@ -1,4 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
+#include "container/chunk_types.h"
+#include "container/header.h"
 #include "container/lobe_codes.h"
 #include "encode/basis_choice.h"
 #include "encode/candidate.h"
@@ -76,6 +78,21 @@ void record_errors(Encoded& e, const encode::Verification& verification) {
   e.bytes = container::pack(e.content);
 }
 
+void count_bytes(std::span<const std::byte> bytes, EncodeSummary& summary) {
+  const container::Header header = container::read_header(bytes, DecodeLimits{});
+  summary.bytes = bytes.size();
+  summary.overhead_bytes = header.header_bytes;
+  for (const container::DirectoryEntry& e : header.directory) {
+    summary.overhead_bytes += container::checksum_bytes;
+    switch (static_cast<container::ChunkType>(e.code)) {
+      case container::ChunkType::lobes: summary.lobe_bytes += e.length; break;
+      case container::ChunkType::residual:
+      case container::ChunkType::refinement: summary.residual_bytes += e.length; break;
+      case container::ChunkType::provenance: break;
+    }
+  }
+}
+
 }  // namespace
 
 bool EncodeOptions::is_valid(std::string* why) const {
@@ -93,7 +110,7 @@ bool EncodeOptions::is_valid(std::string* why) const {
 std::string EncodeSummary::brief() const {
   char text[200];
   std::snprintf(text, sizeof text, "%llu bytes: %d lobe%s in %llu, %d coefficients in %llu, %d refinement%s",
-                static_cast<unsigned long long>(bytes), static_cast<int>(fit.lobes.size()), fit.lobes.size() == 1 ? "" : "s",
+                static_cast<unsigned long long>(bytes), lobes, lobes == 1 ? "" : "s",
                 static_cast<unsigned long long>(lobe_bytes), coefficients, static_cast<unsigned long long>(residual_bytes),
                 refinements, refinements == 1 ? "" : "s");
   return text;
@@ -165,9 +182,8 @@ EncodeResult compress(const Measurement& m, const EncodeOptions& options, const 
   record_errors(best, *verification);
   summary.seconds_verify = seconds_since(start);
 
-  summary.bytes = best.bytes.size();
-  summary.lobe_bytes = lobe_file;
-  summary.residual_bytes = summary.bytes > lobe_file ? summary.bytes - lobe_file : 0;
+  count_bytes(best.bytes, summary);
+  summary.lobes = static_cast<int>(best.content.lobes.lobes.size());
   summary.refinements = static_cast<int>(best.content.residual.layers.size());
   for (const residual::Layer& layer : best.content.residual.layers)
     for (const auto& q : layer.q)

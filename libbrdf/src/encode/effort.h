@@ -15,6 +15,7 @@ struct EffortStep {
   int effort;
   int max_lobes, starts, fit_samples, fit_iterations;  ///< of the lobe fit
   int bins_h, bins_d, bins_p;                          ///< resolution at which the measurement is averaged
+  int substeps;                                        ///< places along each axis of a bin
   int coefficients;                                    ///< candidates per channel
   double image_quality;                                ///< share of the image rows in the error model; 0: none
   int passes;                                          ///< of rate-distortion optimisation per quantiser step
