@@ -67,7 +67,7 @@ TEST(RangeCoder, StreamsOfOneBitValueNeverOverrun) {
 // Bits that go against what the model has just learnt: the longest carries and the smallest ranges.
 TEST(RangeCoder, GivesBackAdversarialBits) {
   RangeEncoder coder;
-  AdaptiveBit model, twin;
+  AdaptiveBit model;
   std::vector<bool> bits;
   for (int i = 0; i < 4000; ++i) {
     const bool unlikely = model.p1() < 32768;

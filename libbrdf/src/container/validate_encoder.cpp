@@ -4,7 +4,6 @@
 #include <brdf/error.h>
 
 #include <cmath>
-#include <cstdlib>
 #include <string>
 
 namespace brdf::container {
@@ -40,7 +39,7 @@ void validate_residual(const residual::ResidualCode& code, const Component& comp
       const std::uint32_t begin = residual::layer_begin(before, layer, c);
       require(layer.end[c] >= begin && layer.end[c] <= residual::max_coefficients && layer.q[c].size() == layer.end[c] - begin,
               "the ends of a layer do not fit its coefficients");
-      for (const std::int32_t q : layer.q[c]) require(std::abs(q) <= residual::max_magnitude, "a coefficient is too large");
+      for (const std::int32_t q : layer.q[c]) require(q >= -residual::max_magnitude && q <= residual::max_magnitude, "a coefficient is too large");
     }
     before = &layer;
   }
@@ -54,6 +53,9 @@ void validate(const Content& content) {
   if (ch.model == ChannelModel::rgb || ch.model == ChannelModel::xyz) require(ch.count == 3, "RGB and XYZ have three channels");
   if (ch.model == ChannelModel::scalar) require(ch.count == 1, "a scalar material has one channel");
   if (ch.model == ChannelModel::spectral) require(ch.wavelengths_nm.size() == static_cast<std::size_t>(ch.count), "every spectral channel needs a wavelength");
+  require(static_cast<std::uint32_t>(ch.count) <= DecodeLimits{}.max_channels, "more channels than decoders accept");
+  for (std::size_t i = 0; i < ch.wavelengths_nm.size(); ++i)
+    require(ch.wavelengths_nm[i] > (i == 0 ? 0.0F : ch.wavelengths_nm[i - 1]), "wavelengths are not ascending");
   require(content.lobes.lobes.size() <= 15, "a file holds at most 15 lobes");
   validate_lobes(content.lobes, ch.count);
   if (!content.residual.empty()) validate_residual(content.residual, content.component);
