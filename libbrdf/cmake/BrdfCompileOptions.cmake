@@ -46,3 +46,10 @@ function(brdf_compile_options target)
     # multiply-add. Vector code asks for it by name, so this costs nothing there.
     -ffp-contract=off)
 endfunction()
+
+# Headers that nearly every source of the target reads. A file still names all that it uses: the preset "minimal" and
+# whoever sets CMAKE_DISABLE_PRECOMPILE_HEADERS build without this.
+function(brdf_precompile target)
+  target_precompile_headers(${target} PRIVATE <algorithm> <array> <cmath> <cstdint> <functional> <limits> <memory>
+    <optional> <span> <string> <vector> ${ARGN})
+endfunction()
