@@ -33,7 +33,7 @@ function(brdf_keep_threaded list)
   set(${list} "${kept}" PARENT_SCOPE)
 endfunction()
 
-foreach(folder IN ITEMS unit property extremes golden negative)
+foreach(folder IN ITEMS unit property extremes golden negative soak)
   file(GLOB sources CONFIGURE_DEPENDS "${CMAKE_CURRENT_SOURCE_DIR}/${folder}/*.cpp")
   if(BRDF_SANITIZE MATCHES "thread")
     brdf_keep_threaded(sources)
