@@ -6,11 +6,13 @@ import os
 import pathlib
 import subprocess
 import sys
+import tempfile
 import unittest
 
 from support.brdfc_reader import Brdfc, FormatError, xxh32
 
 ROOT = pathlib.Path(os.environ.get("BRDF_SOURCE_DIR", pathlib.Path(__file__).resolve().parents[2]))
+MEASURED = pathlib.Path(os.environ.get("BRDF_SHARED", "")) / "data" / "rgl" / "vch_golden_yellow_rgb.bsdf"
 FILES = sorted((ROOT / "data" / "golden").glob("*.brdfc"))
 
 
@@ -81,17 +83,51 @@ class FormatReader(unittest.TestCase):
             self.assertRaises(FormatError, Brdfc, bytes(data))
             data[i] ^= 1 << i % 8
 
+    def evaluated(self, file, pairs, level):
+        """What the command line says about some pairs."""
+        rows = "".join(",".join(f"{v:.9g}" for v in (*wi, *wo)) + "\n" for wi, wo in pairs)
+        command = [os.environ["BRDF_COMPRESS"], "eval", str(file), "--eval", level, "--format", "csv"]
+        out = subprocess.run(command, input=rows, capture_output=True, text=True, check=True).stdout.splitlines()
+        self.assertEqual(len(out), len(pairs))
+        return [[float(v) for v in line.split(",")] for line in out]
+
     @unittest.skipUnless(os.environ.get("BRDF_COMPRESS"), "brdf-compress is not built")
     def test_command_line(self):
         pairs = list(directions(100))
-        rows = "".join(",".join(f"{v:.9g}" for v in (*wi, *wo)) + "\n" for wi, wo in pairs)
         for file in FILES:
-            command = [os.environ["BRDF_COMPRESS"], "eval", str(file), "--eval", "exact", "--format", "csv"]
-            out = subprocess.run(command, input=rows, capture_output=True, text=True, check=True).stdout.splitlines()
-            self.assertEqual(len(out), len(pairs))
             material = Brdfc(file.read_bytes())
-            for (wi, wo), line in zip(pairs, out):
-                self.close([float(v) for v in line.split(",")], material.eval(wi, wo), 0.01, f"{file.name} {wi} {wo}")
+            for (wi, wo), f in zip(pairs, self.evaluated(file, pairs, "exact")):
+                expected = material.eval_resampled(wi, wo, "exact") if material.axes == 1 else material.eval(wi, wo)
+                self.close(f, expected, 0.01, f"{file.name} {wi} {wo}")
+
+    @unittest.skipUnless(os.environ.get("BRDF_COMPRESS"), "brdf-compress is not built")
+    @unittest.skipUnless(MEASURED.exists(), "measured files are not here")
+    def test_slices(self):
+        with tempfile.TemporaryDirectory(prefix="brdf-format-") as folder:
+            file = pathlib.Path(folder) / "slices.brdfc"
+            command = [os.environ["BRDF_COMPRESS"], "compress", str(MEASURED), "-o", str(file), "--target-size", "1500"]
+            subprocess.run([*command, "-q"], check=True)
+            data = file.read_bytes()
+            material = Brdfc(data)
+            self.assertEqual(material.axes, 1)
+            self.assertGreater(len(material.layers), 0)
+            # one along the normal, where azimuths mean nothing, and one below the nodes that stand for the horizon
+            pairs = [*directions(60), ((0.0, 0.0, 1.0), (0.6, 0.0, 0.8)),
+                     ((math.sqrt(1 - 1e-4), 0.0, 0.01), (-math.sqrt(0.5), 0.0, math.sqrt(0.5)))]
+            # nodes are the same but for ties of half floats; the tolerance is that of the other files
+            for level, some in ("balanced", pairs), ("exact", pairs[:20]):
+                for (wi, wo), f in zip(some, self.evaluated(file, some, level)):
+                    self.close(f, material.eval_resampled(wi, wo, level), 0.01, f"{level} {wi} {wo}")
+            lobes = Brdfc(data, 0)
+            for (wi, wo), f in zip(pairs, self.evaluated(file, pairs, "fast")):
+                self.close(f, lobes.eval(wi, wo), 0.001, f"fast {wi} {wo}")
+            self.closed_formula_is_near(material, pairs[:20])
+
+    def closed_formula_is_near(self, material, pairs):
+        """The grid is another form of the formula: most values hardly differ."""
+        near = [abs(a - b) <= 0.05 * b + 1e-3 for wi, wo in pairs
+                for a, b in zip(material.eval_resampled(wi, wo, "exact"), material.eval(wi, wo))]
+        self.assertGreater(sum(near), 0.9 * len(near))
 
 
 if __name__ == "__main__":

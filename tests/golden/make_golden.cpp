@@ -38,7 +38,7 @@ Content frame(const Measurement& m, bool reciprocal) {
                           : m.channels.count == 1 ? ChannelTransform::identity
                                                   : ChannelTransform::cosine;
   c.lobes = lobes_of(m.channels.count);
-  c.residual.basis = {17, 9, 8, 9, 118, 0};
+  c.residual.basis = {17, 9, 8, 9, 118, 0, 0};
   c.residual.reciprocal = reciprocal;
   c.residual.channels = m.channels.count;
   return c;
@@ -52,13 +52,12 @@ encode::Quantised quantised(const Measurement& m, const Content& c, std::uint32_
   const encode::Bins bins = encode::sample_bins(m, c.lobes, basis, 30, 18, 12);
   const encode::ErrorModel model =
       encode::cell_model(bins, encode::cell_weights(bins, basis.epsilon, {}), basis, order, c.component.transform);
-  return encode::quantise(model, encode::solve_coefficients(model), c.residual.basis, c.residual.reciprocal,
+  return encode::quantise(model, encode::solve_coefficients(model), order, c.residual.reciprocal,
                           {residual::step_of(step_code), 1.0, 3});
 }
 
 void add_layers(Content& c, const Measurement& m, std::uint32_t count, int step_code, int layers) {
-  c.residual = encode::make_layers(quantised(m, c, count, step_code), c.residual.basis, c.residual.reciprocal,
-                                   step_code, layers);
+  c.residual = encode::make_layers(quantised(m, c, count, step_code), c.residual, step_code, layers);
 }
 
 /// A coarse layer, then one that begins again with what the coarse one rounded away.

@@ -60,7 +60,7 @@ TEST(BrdfcFields, ReservedBitsOfTheComponentAreMalformed) {
 }
 
 TEST(BrdfcFields, ComponentsOfLaterVersionsAreUnsupported) {
-  for (const unsigned bit : {0x01U, 0x02U, 0x04U, 0x08U, 0x10U}) {  // sides, axes
+  for (const unsigned bit : {0x01U, 0x02U, 0x08U, 0x10U}) {  // sides, axes
     FileParts p = layered();
     set_bits(p.component[0], bit);
     expect_error(ErrorCode::unsupported, {"component"}, [&] { read(p); });
@@ -200,10 +200,16 @@ TEST(BrdfcFields, LobesChunkMustEndWithItsLobes) {
   expect_error(ErrorCode::malformed, {"padding"}, [&] { read(p); });
 }
 
+TEST(BrdfcFields, ReciprocalSlicesAreMalformed) {
+  FileParts p = layered();
+  set_bits(p.component[0], 0x04 | 0x40);
+  expect_error(ErrorCode::malformed, {"slices", "reciprocal"}, [&] { read(p); });
+}
+
 TEST(BrdfcFields, ReservedBitsOfTheBasisAreMalformed) {
-  for (unsigned bit = 0; bit < 5; ++bit) {
+  for (unsigned bit = 0; bit < 3; ++bit) {
     FileParts p = layered();
-    set_bits(p.chunks[1].payload[4 + 5], 1U << bit);  // 4 bytes of errors, 48 bits of basis; the last 5 are reserved
+    set_bits(p.chunks[1].payload[4 + 5], 1U << bit);  // 4 bytes of errors, 48 bits of basis; the last 3 are reserved
     expect_error(ErrorCode::malformed, {"reserved"}, [&] { read(p); });
   }
 }

@@ -2,193 +2,21 @@
 # SPDX-License-Identifier: Apache-2.0
 """A second reader of .brdfc files, written from docs/format.md alone and made to be read, not to be fast.
 
-It evaluates the residual as the formula that it is, without a grid. Usage:
-  brdfc_reader.py FILE [REFINEMENTS] < rows of wi.xyz wo.xyz > rows of f
+It evaluates the residual as the formula that it is, without a grid; one in slices also as libbrdf resamples it. Usage,
+in the folder tests:
+  python3 -m support.brdfc_reader FILE [REFINEMENTS] < rows of wi.xyz wo.xyz > rows of f
 """
 import math
 import struct
 import sys
 
-RATES = [18725, 14564, 11916, 10082, 8738, 7710, 6899, 6242, 5699, 5243, 4855, 4520, 4228, 3972, 3745, 3542]
-SHAPES = [(10, 17, 24), (8, 20, 30), (6, 20, 30), (14, 14, 22), (10, 20, 17), (8, 12, 40), (5, 30, 40), (14, 20, 14)]
-MASK = 0xFFFFFFFF
+from support.brdfc_coding import (Bits, Bytes, CoefficientDecoder, FormatError, RangeDecoder, coefficient_order,
+                                  require, xxh32)
+from support.brdfc_slices import ResampledGrid, SliceFrame, SliceTable
 
-
-class FormatError(Exception):
-    """The file contradicts docs/format.md or needs a later version of it."""
-
-
-def require(condition, sentence):
-    if not condition:
-        raise FormatError(sentence)
-
-
-def xxh32(data, seed):
-    p1, p2, p3, p4, p5 = 2654435761, 2246822519, 3266489917, 668265263, 374761393
-
-    def rotate(x, r):
-        return (x << r | x >> (32 - r)) & MASK
-
-    at = 0
-    if len(data) >= 16:
-        lanes = [(seed + p1 + p2) & MASK, (seed + p2) & MASK, seed & MASK, (seed - p1) & MASK]
-        while at + 16 <= len(data):
-            for i, word in enumerate(struct.unpack_from("<4I", data, at)):
-                lanes[i] = rotate((lanes[i] + word * p2) & MASK, 13) * p1 & MASK
-            at += 16
-        h = sum(rotate(v, r) for v, r in zip(lanes, (1, 7, 12, 18)))
-    else:
-        h = seed + p5
-    h = (h + len(data)) & MASK
-    while at + 4 <= len(data):
-        h = rotate((h + struct.unpack_from("<I", data, at)[0] * p3) & MASK, 17) * p4 & MASK
-        at += 4
-    for byte in data[at:]:
-        h = rotate((h + byte * p5) & MASK, 11) * p1 & MASK
-    h = (h ^ h >> 15) * p2 & MASK
-    h = (h ^ h >> 13) * p3 & MASK
-    return h ^ h >> 16
-
-
-class Bytes:
-    """Reads forward."""
-    def __init__(self, data):
-        self.data, self.at = data, 0
-
-    def take(self, n):
-        require(self.at + n <= len(self.data), "the data end too early")
-        self.at += n
-        return self.data[self.at - n:self.at]
-
-    def u8(self):
-        return self.take(1)[0]
-
-    def varint(self):
-        value = 0
-        for i in range(8):
-            byte = self.u8()
-            value |= (byte & 127) << 7 * i
-            if byte < 128:
-                require(byte > 0 or i == 0, "a varint is not in its shortest form")
-                return value
-        raise FormatError("a varint has more than 8 bytes")
-
-
-class Bits:
-    """Most significant first."""
-    def __init__(self, data):
-        self.data, self.at = data, 0
-
-    def get(self, n):
-        require(self.at + n <= 8 * len(self.data), "the bits end too early")
-        value = 0
-        for _ in range(n):
-            value = value << 1 | self.data[self.at // 8] >> (7 - self.at % 8) & 1
-            self.at += 1
-        return value
-
-    def rest(self):
-        while self.at % 8:
-            require(self.get(1) == 0, "padding bits are not 0")
-        return self.data[self.at // 8:]
-
-
-class AdaptiveBit:
-    def __init__(self, p):
-        self.p, self.n = p, 0
-
-    def update(self, bit):
-        rate = RATES[self.n] if self.n < 16 else 65536 // (self.n + 3)
-        change = ((65208 if bit else 327) - self.p) * rate
-        self.p += change // 65536 if change >= 0 else -(-change // 65536)
-        self.n = min(self.n + 1, 40)
-
-
-class RangeDecoder:
-    def __init__(self, data):
-        self.data, self.at, self.range, self.code = data, 0, MASK, 0
-        for _ in range(4):
-            self.code = self.code << 8 | self.next()
-
-    def next(self):
-        self.at += 1
-        return self.data[self.at - 1] if self.at <= len(self.data) else 0
-
-    def renew(self):
-        while self.range < 1 << 24:
-            self.range <<= 8
-            self.code = (self.code << 8 | self.next()) & MASK
-
-    def raw(self, n):
-        value = 0
-        for _ in range(n):
-            self.range >>= 1
-            bit = int(self.code >= self.range)
-            if bit:
-                self.code -= self.range
-            self.renew()
-            value = value << 1 | bit
-        return value
-
-    def bit(self, model):
-        bound = self.range * model.p >> 16
-        bit = self.code < bound
-        if bit:
-            self.range = bound
-        else:
-            self.code -= bound
-            self.range -= bound
-        model.update(bit)
-        self.renew()
-        return bit
-
-    def count(self):
-        width = self.raw(4)
-        return 0 if width == 0 else 1 << (width - 1) | self.raw(width - 1)
-
-
-def coefficient_order(shape, reciprocal, count):
-    a, b, c = SHAPES[shape]
-    places = [(a * k + b * l + c * m, m, l, k)
-              for m in range(0, 24, 2 if reciprocal else 1) for l in range(32) for k in range(64)]
-    return [(k, l, m) for _, m, l, k in sorted(places)[:count]]
-
-
-class CoefficientDecoder:
-    """The contexts and their adaptive bits; one object for all layers."""
-    def __init__(self, reciprocal):
-        z = (5, 20, 30, 40, 50, 60, 70, 85)
-        self.nonzero = [[[AdaptiveBit(65536 * z[a] * (10 - b) // 1000) for b in range(6)] for a in range(8)]
-                        for _ in range(2)]
-        self.more = [[AdaptiveBit(65536 * (30 + 10 * a) // 100) for _ in range(5)] for a in range(4)]
-        self.reciprocal, self.known = reciprocal, {}
-
-    def decode(self, coder, channel, place, frequency):
-        k, l, m = frequency
-
-        def g(c, k, l, m):
-            return self.known.get((c, k, l, m), 0)
-
-        c = channel
-        v = 2 * g(c, k - 1, l, m) + g(c, k - 2, l, m) + 2 * g(c, k, l - 1, m) + g(c, k, l - 2, m)
-        v += g(c, k - 1, l - 1, m) + g(c, k, l, m - 2) + (g(c, k, l, m - 2) if self.reciprocal else g(c, k, l, m - 1))
-        v += 2 * g(0, k, l, m) if c > 0 else 0
-        v += g(c - 1, k, l, m) if c > 1 else 0
-        a = v if v < 4 else 4 if v < 6 else 5 if v < 9 else 6 if v < 14 else 7
-        b = 0 if a >= 4 else sum(place >= bound for bound in (6, 12, 24, 48, 96))
-        if not coder.bit(self.nonzero[int(c == 0)][a][b]):
-            return 0
-        negative = coder.raw(1)
-        n = 1
-        while n < 15 and coder.bit(self.more[a >> 1][min(n, 5) - 1]):
-            n += 1
-        if n == 15:
-            e = 0
-            while e < 21 and coder.raw(1):
-                e += 1
-            n += (1 << e) + coder.raw(e) - 1
-        self.known[c, k, l, m] = min(n, 255)
-        return -n if negative else n
+__all__ = ["Brdfc", "FormatError", "xxh32"]
+BALANCED = (56, 28, 25), (48, 40, 21), (72, 32, 17), (32, 44, 29)
+EXACT = 128, 64, 49
 
 
 def channel_matrix(transform, n):
@@ -205,6 +33,7 @@ class Brdfc:
     """A file, read up to `refinements` (all when None). `prefix` allows it to be cut at a boundary."""
     def __init__(self, data, refinements=None, prefix=False):
         self.lobes, self.layers, self.errors, self.order = None, [], [], []
+        self.table, self.grids = None, {}
         self.read_header(data)
         require(len(data) <= self.total, "the file is longer than its header says")
         require(prefix or len(data) == self.total, "the file is cut")
@@ -231,8 +60,11 @@ class Brdfc:
         self.total = r.varint()
         require(r.varint() == 1, "more than one component")
         first, second = r.u8(), r.u8()
-        require(first & 0x9F == 0 and first & 0x20 and second & 0xE0 == 0, "the component is of a later version")
+        self.axes = first >> 2 & 7
+        require(first & 0x83 == 0 and self.axes < 2 and first & 0x20 and second & 0xE0 == 0,
+                "the component is of a later version")
         self.reciprocal = bool(first & 0x40)
+        require(not (self.axes and self.reciprocal), "slices cannot be reciprocal")
         self.model, self.transform, self.channels = second & 3, second >> 2 & 7, r.varint()
         require(self.transform < 3, "unknown channel transform")
         require(self.channels == {0: 3, 1: 3, 3: 1}.get(self.model, self.channels) > 0, "wrong number of channels")
@@ -298,12 +130,17 @@ class Brdfc:
         epsilon = bits.get(8)
         require(epsilon <= 227, "epsilon is too large")
         self.epsilon = 2.0 ** (epsilon - 128)
-        shape, self.count = bits.get(3), bits.get(15)
-        require(self.count <= 16384, "too many coefficients")
-        require(bits.get(5) == 0, "reserved bits of the basis are set")
-        self.order = coefficient_order(shape, self.reciprocal, self.count)
+        shape, count = bits.get(3), bits.get(15)
+        require(count <= 16384, "too many coefficients")
+        self.balanced = BALANCED[bits.get(2)]
+        require(bits.get(3) == 0, "reserved bits of the basis are set")
+        rest, reach = bits.rest(), (64, 32, 24)
+        if self.axes == 1:
+            self.frame = SliceFrame(rest)
+            rest, reach = self.frame.rest, self.frame.reach()
+        self.order = coefficient_order(shape, self.reciprocal, count, reach)
         self.decoder = CoefficientDecoder(self.reciprocal)
-        return bits.rest()
+        return rest
 
     def read_layer(self, data):
         coder = RangeDecoder(data)
@@ -312,14 +149,14 @@ class Brdfc:
             self.decoder.known.clear()
         begin = [0] * self.channels if restart or not self.layers else self.layers[-1][1]
         end = [b + coder.count() for b in begin]
-        require(max(end) <= self.count, "a layer goes beyond the declared count")
+        require(max(end) <= len(self.order), "a layer goes beyond the declared count")
         values = []
         for j in range(min(begin), max(end)):
             for c in range(self.channels):
                 if begin[c] <= j < end[c]:
                     q = self.decoder.decode(coder, c, j, self.order[j])
                     values.append((c, j, q * step))
-        require(coder.at - len(data) <= 4, "a layer goes on beyond its end")
+        coder.finish()
         self.layers.append((values, end))
 
     def read_provenance(self, payload):
@@ -339,25 +176,25 @@ class Brdfc:
         return {j: [sum(matrix[t][c] * b[t] for t in range(n)) for c in range(n)]
                 for j, b in stored.items() if any(b)}
 
+    def lobe_sum(self, wi, wo):
+        f = [0.0] * self.channels
+        for kind, alpha, f90, color in self.lobes:
+            lobe = [rho / math.pi for rho in color] if kind == 0 else ggx(kind, alpha, f90, color, wi, wo)
+            f = [a + b for a, b in zip(f, lobe)]
+        return f
+
     def eval(self, wi, wo):
         """f in 1/sr, without the cosine."""
         n = self.channels
         if wi[2] <= 0 or wo[2] <= 0:
             return [0.0] * n
-        f = [0.0] * n
-        for kind, alpha, f90, color in self.lobes:
-            lobe = [rho / math.pi for rho in color] if kind == 0 else ggx(kind, alpha, f90, color, wi, wo)
-            f = [a + b for a, b in zip(f, lobe)]
-        if not self.layers:
-            return f
+        if not self.has_residual():
+            return self.lobe_sum(wi, wo)
+        if self.axes == 1:
+            return self.slice_table().eval(wi, wo)
         theta_h, theta_d, cos_phi = half_difference(wi, wo)
+        u_h, u_d, _ = self.coordinates(wi, wo)
         phi = math.acos(cos_phi)
-
-        def axis(theta, kappa):
-            t = math.sqrt(2) * math.sin(theta / 2)
-            return t * (0.6 * (1 + kappa) / (t + kappa) + 0.4)
-
-        u_h, u_d = axis(theta_h, self.kappa_h), axis(theta_d, self.kappa_d)
         window = (math.sin(theta_h) / math.hypot(math.sin(theta_h), self.window_h)
                   * math.sin(theta_d) / math.hypot(math.sin(theta_d), self.window_d))
         r = [0.0] * n
@@ -365,7 +202,41 @@ class Brdfc:
             k, l, m = self.order[j]
             value = math.cos(math.pi * k * u_h) * math.cos(math.pi * l * u_d) * math.cos(m * phi) * window ** m
             r = [x + y * value for x, y in zip(r, a)]
-        return [max(0.0, (x + self.epsilon) * math.exp(min(max(y, -9.7), 10.39)) - self.epsilon) for x, y in zip(f, r)]
+        return self.with_ratio(wi, wo, [math.exp(min(max(y, -9.7), 10.39)) for y in r])
+
+    def eval_resampled(self, wi, wo, level):
+        """f as libbrdf has it at level "balanced" or "exact"; of files with axes 1."""
+        require(self.axes == 1, "the residual is not in slices")
+        if wi[2] <= 0 or wo[2] <= 0 or not self.has_residual():
+            return self.eval(wi, wo)
+        if level not in self.grids:
+            size = self.balanced if level == "balanced" else EXACT
+            self.grids[level] = ResampledGrid(size, self.kappa_h, self.kappa_d, self.epsilon, self.slice_table(),
+                                              self.lobe_sum)
+        return self.with_ratio(wi, wo, self.grids[level].ratio(self.coordinates(wi, wo)))
+
+    def has_residual(self):
+        """Whether a layer has a place in any channel."""
+        return any(max(end) > 0 for _, end in self.layers)
+
+    def slice_table(self):
+        if self.table is None:
+            self.table = SliceTable(self.frame, {self.order[j]: a for j, a in self.coefficients.items()}, self.channels)
+        return self.table
+
+    def with_ratio(self, wi, wo, ratio):
+        return [max(0.0, (x + self.epsilon) * r - self.epsilon) for x, r in zip(self.lobe_sum(wi, wo), ratio)]
+
+    def coordinates(self, wi, wo):
+        """u_h, u_d, u_p."""
+        theta_h, theta_d, cos_phi = half_difference(wi, wo)
+
+        def axis(theta, kappa):
+            t = math.sqrt(2) * math.sin(theta / 2)
+            return t * (0.6 * (1 + kappa) / (t + kappa) + 0.4)
+
+        u_p = math.sqrt(1 - cos_phi) / 2 if cos_phi >= 0 else 1 - math.sqrt(1 + cos_phi) / 2
+        return axis(theta_h, self.kappa_h), axis(theta_d, self.kappa_d), u_p
 
 
 def half_difference(wi, wo):

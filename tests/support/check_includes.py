@@ -17,10 +17,11 @@ MODULES = {
     "lobes": ["base", "geometry"],
     "ingest": ["base", "geometry"],
     "residual": ["base", "geometry", "lobes"],
+    "slices": ["residual"],
     "container": ["base", "lobes", "residual"],
     "eval": ["base", "geometry", "lobes", "residual"],
     "sample": ["base", "geometry", "lobes", "eval"],
-    "decode": ["container", "residual", "eval", "sample", "lobes", "base"],
+    "decode": ["container", "residual", "slices", "eval", "sample", "lobes", "base"],
     "fit": ["ingest", "lobes", "geometry", "base"],
     "metrics": ["base", "geometry"],
 }
@@ -41,7 +42,7 @@ PUBLIC = {
 
 # What brdf::decode may not see, by the start of an include's name: a renderer links no fitter.
 ENCODER_ONLY = ("ceres/", "Eigen/", "glog/", "tbb/", "oneapi/", "nlohmann/", "CLI/")
-DECODE_MODULES = {"base", "geometry", "lobes", "residual", "container", "eval", "sample", "decode"}
+DECODE_MODULES = {"base", "geometry", "lobes", "residual", "slices", "container", "eval", "sample", "decode"}
 
 MAX_LINES = 400
 BAD_STEMS = {"utils", "util", "misc", "common"}

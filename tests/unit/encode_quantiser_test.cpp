@@ -15,7 +15,19 @@ namespace {
 
 using residual::BasisCodes;
 
-const BasisCodes codes{16, 9, 5, 7, 118, 0};
+const BasisCodes codes{16, 9, 5, 7, 118, 0, 0};
+
+std::vector<residual::Frequency> order_of(const ErrorModel& model) {
+  return residual::coefficient_order(residual::order_shapes[0], true, static_cast<std::uint32_t>(model.size));
+}
+
+/// A residual of three channels with exact reciprocity, without layers.
+residual::ResidualCode empty_code() {
+  residual::ResidualCode code;
+  code.basis = codes;
+  code.reciprocal = true;
+  return code;
+}
 
 ErrorModel model_of(std::uint32_t count) {
   const Measurement m = test::bumpy_measurement();
@@ -37,7 +49,7 @@ std::vector<std::vector<double>> dequantised(const Quantised& q, double step) {
 }
 
 double bits_of(const Quantised& q) {
-  const auto code = make_layers(q, codes, true, 40, 1);
+  const auto code = make_layers(q, empty_code(), 40, 1);
   if (code.empty()) return 0;
   residual::LayerCodec codec(codes, true, 3, *std::max_element(q.end.begin(), q.end.end()));
   return 8.0 * static_cast<double>(encode_layer(codec, nullptr, code.layers[0]).size());
@@ -48,7 +60,7 @@ TEST(Quantise, ReportedErrorIsThatOfItsCoefficients) {
   const auto start = solve_coefficients(model);
   for (const double step : {1.0, 0.25, 0.06, 0.01})
     for (const int passes : {0, 1, 4}) {
-      const Quantised q = quantise(model, start, codes, true, {step, 1.0, passes});
+      const Quantised q = quantise(model, start, order_of(model), true, {step, 1.0, passes});
       const double expected = model_error(model, dequantised(q, step));
       EXPECT_NEAR(q.error, expected, 1e-9 * model.constant) << step << " " << passes;
     }
@@ -56,7 +68,7 @@ TEST(Quantise, ReportedErrorIsThatOfItsCoefficients) {
 
 TEST(Quantise, EndsAreOnePastTheLastLivingCoefficient) {
   const ErrorModel model = model_of(200);
-  const Quantised q = quantise(model, solve_coefficients(model), codes, true, {0.1, 1.0, 3});
+  const Quantised q = quantise(model, solve_coefficients(model), order_of(model), true, {0.1, 1.0, 3});
   ASSERT_EQ(q.q.size(), 3U);
   EXPECT_GT(q.end[0], 10U);
   for (std::size_t c = 0; c < 3; ++c) {
@@ -65,6 +77,22 @@ TEST(Quantise, EndsAreOnePastTheLastLivingCoefficient) {
     EXPECT_TRUE(q.end[c] == 0 || q.q[c][q.end[c] - 1] != 0);
     for (std::size_t j = q.end[c]; j < 200; ++j) EXPECT_EQ(q.q[c][j], 0);
   }
+}
+
+TEST(Quantise, ADiagonalModelIsAMatrixWithoutNeighbours) {
+  ErrorModel matrix = model_of(80);
+  ErrorModel diagonal = matrix;
+  for (std::size_t i = 0; i < matrix.size; ++i) {
+    diagonal.diagonal.push_back(matrix.gram[i * matrix.size + i]);
+    for (std::size_t j = 0; j < matrix.size; ++j)
+      if (i != j) matrix.gram[i * matrix.size + j] = 0;
+  }
+  diagonal.gram.clear();
+  const auto start = solve_coefficients(matrix);
+  const Quantised a = quantise(matrix, start, order_of(matrix), true, {0.05, 1.0, 3});
+  const Quantised b = quantise(diagonal, start, order_of(matrix), true, {0.05, 1.0, 3});
+  EXPECT_EQ(a.q, b.q);
+  EXPECT_DOUBLE_EQ(a.error, b.error);
 }
 
 TEST(Quantise, PassesLowerTheCost) {
@@ -76,7 +104,7 @@ TEST(Quantise, PassesLowerTheCost) {
   for (const double step : {0.5, 0.12, 0.03}) {
     const double lambda = 0.12 * step * step * mean_diagonal;
     const auto cost = [&](int passes) {
-      const Quantised q = quantise(model, start, codes, true, {step, 1.0, passes});
+      const Quantised q = quantise(model, start, order_of(model), true, {step, 1.0, passes});
       return q.error + lambda * bits_of(q);
     };
     const double rounded = cost(0), once = cost(1), often = cost(5);
@@ -90,7 +118,7 @@ TEST(Quantise, FinerStepsLowerTheErrorAndRaiseTheRate) {
   const auto start = solve_coefficients(model);
   double error = model.constant * 1.0001, bits = -1;
   for (const int code : {16, 32, 48, 64, 80}) {
-    const Quantised q = quantise(model, start, codes, true, {residual::step_of(code), 1.0, 3});
+    const Quantised q = quantise(model, start, order_of(model), true, {residual::step_of(code), 1.0, 3});
     EXPECT_LE(q.error, error) << code;
     EXPECT_GE(bits_of(q), bits) << code;
     error = q.error;
@@ -102,17 +130,17 @@ TEST(Quantise, FinerStepsLowerTheErrorAndRaiseTheRate) {
 TEST(Quantise, HigherPriceGivesFewerBits) {
   const ErrorModel model = model_of(200);
   const auto start = solve_coefficients(model);
-  const Quantised cheap = quantise(model, start, codes, true, {0.06, 0.3, 3});
-  const Quantised dear = quantise(model, start, codes, true, {0.06, 5.0, 3});
+  const Quantised cheap = quantise(model, start, order_of(model), true, {0.06, 0.3, 3});
+  const Quantised dear = quantise(model, start, order_of(model), true, {0.06, 5.0, 3});
   EXPECT_LT(bits_of(dear), bits_of(cheap));
   EXPECT_GT(dear.error, cheap.error);
 }
 
 TEST(MakeLayers, SplitsWithoutLoss) {
   const ErrorModel model = model_of(200);
-  const Quantised q = quantise(model, solve_coefficients(model), codes, true, {0.05, 1.0, 3});
+  const Quantised q = quantise(model, solve_coefficients(model), order_of(model), true, {0.05, 1.0, 3});
   for (const int count : {1, 2, 4, 6}) {
-    const auto code = make_layers(q, codes, true, 40, count);
+    const auto code = make_layers(q, empty_code(), 40, count);
     ASSERT_FALSE(code.empty());
     ASSERT_LE(code.layers.size(), static_cast<std::size_t>(count));
     std::vector<std::vector<std::int32_t>> joined(3);
@@ -132,7 +160,7 @@ TEST(MakeLayers, NothingButZerosGivesNone) {
   Quantised q;
   q.q.assign(3, std::vector<std::int32_t>(10, 0));
   q.end.assign(3, 0);
-  EXPECT_TRUE(make_layers(q, codes, true, 40, 4).empty());
+  EXPECT_TRUE(make_layers(q, empty_code(), 40, 4).empty());
 }
 
 TEST(LayerCount, GrowsWithTheFile) {

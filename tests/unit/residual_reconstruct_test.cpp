@@ -59,9 +59,9 @@ TEST(Reconstruct, OtherTransformsAndChannelCounts) {
 
 TEST(Reconstruct, LevelsUseTheDocumentedSizes) {
   // docs/format.md names them: files do not depend on them, recorded errors do
-  EXPECT_EQ(balanced_grid.n_h, 56);
-  EXPECT_EQ(balanced_grid.n_d, 28);
-  EXPECT_EQ(balanced_grid.n_p, 25);
+  EXPECT_EQ(balanced_grids[0].n_h, 56);
+  EXPECT_EQ(balanced_grids[0].n_d, 28);
+  EXPECT_EQ(balanced_grids[0].n_p, 25);
   EXPECT_EQ(exact_grid.n_h, 128);
   EXPECT_EQ(exact_grid.n_d, 64);
   EXPECT_EQ(exact_grid.n_p, 49);

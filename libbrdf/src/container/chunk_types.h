@@ -14,7 +14,8 @@ enum class ChunkType : std::uint8_t { lobes = 0x01, residual = 0x02, refinement 
 inline constexpr std::uint8_t optional_bit = 0x80;
 
 /// What the axes of a component's table are.
-enum class AxesKind : std::uint8_t { half_difference = 0 };
+enum class AxesKind : std::uint8_t { half_difference = 0, slices = 1 };
+inline constexpr unsigned axes_kind_count = 2;
 
 inline constexpr int checksum_bytes = 4;
 

@@ -2,6 +2,7 @@
 // What a `.brdfc` file says, before it is bytes.
 #pragma once
 
+#include "container/chunk_types.h"
 #include "residual/channel_transform.h"
 #include "residual/residual_code.h"
 
@@ -20,6 +21,7 @@ namespace brdf::container {
 /// One scattering component: which sides it joins and in which basis its residual is written.
 struct Component {
   bool incident_below = false, outgoing_below = false;  ///< side pair; reflection above is false, false
+  AxesKind axes = AxesKind::half_difference;
   bool mirror_symmetric = true;
   bool reciprocal = false;
   Channels channels;

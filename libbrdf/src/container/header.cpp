@@ -18,7 +18,7 @@ std::vector<std::byte> write_component(const Component& c) {
   std::vector<std::byte> out;
   const unsigned sides = (c.incident_below ? 1U : 0U) | (c.outgoing_below ? 2U : 0U);
   const unsigned parity = (c.mirror_symmetric ? 1U : 0U) | (c.reciprocal ? 2U : 0U);
-  out.push_back(static_cast<std::byte>(sides | (static_cast<unsigned>(AxesKind::half_difference) << 2) | (parity << 5)));
+  out.push_back(static_cast<std::byte>(sides | (static_cast<unsigned>(c.axes) << 2) | (parity << 5)));
   out.push_back(static_cast<std::byte>(static_cast<unsigned>(c.channels.model) | (static_cast<unsigned>(c.transform) << 2)));
   put_varint(out, static_cast<std::uint64_t>(c.channels.count));
   if (c.channels.model == ChannelModel::spectral) {
@@ -42,9 +42,12 @@ Component read_component(base::ByteReader& in, const DecodeLimits& limits) {
   c.mirror_symmetric = (first & 0x20U) != 0;
   c.reciprocal = (first & 0x40U) != 0;
   if ((first & 0x80U) != 0 || (second & 0xE0U) != 0) throw Error(ErrorCode::malformed, "component: reserved bits are set");
-  if (axes != static_cast<unsigned>(AxesKind::half_difference) || c.incident_below || c.outgoing_below || !c.mirror_symmetric)
+  if (axes >= axes_kind_count || c.incident_below || c.outgoing_below || !c.mirror_symmetric)
     throw Error(ErrorCode::unsupported, "component: axes " + std::to_string(axes) +
                                             " or its sides are not known to this version; only isotropic mirror-symmetric reflection is");
+  c.axes = static_cast<AxesKind>(axes);
+  if (c.axes == AxesKind::slices && c.reciprocal)
+    throw Error(ErrorCode::malformed, "component: a residual in slices of theta_i cannot be reciprocal");
   c.channels.model = static_cast<ChannelModel>(second & 3U);
   const unsigned transform = (second >> 2) & 7U;
   if (transform >= static_cast<unsigned>(residual::channel_transform_count))

@@ -6,6 +6,7 @@
 #include "container/header.h"
 #include "container/lobe_codes.h"
 #include "container/residual_chunk.h"
+#include "container/slice_frame_codes.h"
 #include "container/validate_content.h"
 #include "container/varint.h"
 #include "residual/layer_codec.h"
@@ -68,7 +69,7 @@ std::vector<std::byte> pack(const Content& content) {
     std::uint32_t count = 0;
     for (const residual::Layer& layer : code.layers)
       for (const std::uint32_t e : layer.end) count = std::max(count, e);
-    residual::LayerCodec codec(code.basis, code.reciprocal, code.channels, count);
+    residual::LayerCodec codec(code.basis, code.reciprocal, code.channels, count, residual::reach_of(code.slices));
     const residual::Layer* before = nullptr;
     for (std::size_t i = 0; i < code.layers.size(); ++i) {
       std::vector<std::byte> payload;
@@ -77,6 +78,7 @@ std::vector<std::byte> pack(const Content& content) {
         BitWriter basis;
         write_basis(basis, code.basis, count);
         append(payload, basis.bytes());
+        if (!code.slices.empty()) append(payload, write_slice_frame(code.slices));
       }
       append(payload, residual::encode_layer(codec, before, code.layers[i]));
       add(static_cast<std::uint8_t>(i == 0 ? ChunkType::residual : ChunkType::refinement), std::move(payload));
@@ -85,7 +87,9 @@ std::vector<std::byte> pack(const Content& content) {
   }
   if (content.provenance) add(static_cast<std::uint8_t>(ChunkType::provenance), provenance_payload(content));
 
-  std::vector<std::byte> out = write_header(content.component, directory);
+  Component component = content.component;
+  component.axes = code.empty() || code.slices.empty() ? AxesKind::half_difference : AxesKind::slices;
+  std::vector<std::byte> out = write_header(component, directory);
   // the chain starts with the checksum of the header and goes on from chunk to chunk
   std::uint32_t checksum = base::load_little_endian<std::uint32_t>(std::span(out).last(checksum_bytes));
   for (const std::vector<std::byte>& payload : payloads) {

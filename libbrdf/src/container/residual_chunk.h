@@ -17,7 +17,8 @@ inline void write_basis(BitWriter& out, const residual::BasisCodes& b, std::uint
   out.put(b.epsilon, 8);
   out.put(b.shape, 3);
   out.put(count, 15);
-  out.put(0, 5);  // reserved
+  out.put(b.table, 2);
+  out.put(0, 3);  // reserved
 }
 
 inline residual::BasisCodes read_basis(BitReader& in, std::uint32_t& count) {
@@ -35,7 +36,8 @@ inline residual::BasisCodes read_basis(BitReader& in, std::uint32_t& count) {
   if (b.epsilon > residual::largest_epsilon_code)
     throw Error(ErrorCode::malformed, "residual: epsilon code " + std::to_string(b.epsilon) + ", at most " +
                                           std::to_string(residual::largest_epsilon_code) + " is allowed");
-  if (in.get(5) != 0) throw Error(ErrorCode::malformed, "residual: reserved bits are set");
+  b.table = static_cast<std::uint8_t>(in.get(2));
+  if (in.get(3) != 0) throw Error(ErrorCode::malformed, "residual: reserved bits are set");
   return b;
 }
 

@@ -6,6 +6,7 @@
 #include "container/header.h"
 #include "container/lobe_codes.h"
 #include "container/residual_chunk.h"
+#include "container/slice_frame_codes.h"
 #include "container/varint.h"
 #include "residual/layer_codec.h"
 
@@ -83,8 +84,13 @@ class ChunkReader {
     code.reciprocal = out_.content.component.reciprocal;
     code.channels = out_.content.component.channels.count;
     spend(count_);  // the field of magnitudes
-    codec_.emplace(code.basis, code.reciprocal, code.channels, count_);
-    layer(bits.rest());
+    std::span<const std::byte> layers = bits.rest();
+    if (out_.content.component.axes == AxesKind::slices) {
+      code.slices = read_slice_frame(layers);
+      spend_slices(code.slices, static_cast<std::uint64_t>(code.channels));
+    }
+    codec_.emplace(code.basis, code.reciprocal, code.channels, count_, residual::reach_of(code.slices));
+    layer(layers);
   }
 
   void refinement(std::span<const std::byte> payload) {
@@ -104,6 +110,15 @@ class ChunkReader {
     spend(count_);
     layers.push_back(residual::decode_layer(*codec_, before, bytes, static_cast<std::size_t>(out_.content.residual.channels), count_));
     ++out_.refinements_read;
+  }
+
+  /// Counts the table in slices, while it is made twice as large, and the map of its normals.
+  void spend_slices(const residual::SliceFrame& f, std::uint64_t channels) const {
+    const std::uint64_t slices = f.theta_i.size(), nodes = slices * static_cast<std::uint64_t>(f.half_height()) * f.width;
+    const std::uint64_t bytes = 2 * nodes * channels * sizeof(float) + slices * ((f.rows + 1U) / 2U) * f.ndf.size() * 2 * sizeof(float);
+    if (bytes > limits_.max_table_bytes)
+      throw Error(ErrorCode::limit_exceeded, "slice frame: its table needs " + std::to_string(bytes) + " bytes, the limit is " +
+                                                 std::to_string(limits_.max_table_bytes));
   }
 
   /// Counts what `coefficients` of every channel may cost in memory before any of it is allocated.

@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "container/validate_content.h"
 
+#include "container/slice_frame_codes.h"
+
 #include <brdf/error.h>
 
 #include <cmath>
@@ -30,8 +32,11 @@ void validate_residual(const residual::ResidualCode& code, const Component& comp
   const residual::BasisCodes& b = code.basis;
   require(code.channels == component.channels.count && code.reciprocal == component.reciprocal,
           "residual and component differ in channels or reciprocity");
-  require(b.kappa_h < 32 && b.kappa_d < 16 && b.window_h < 16 && b.window_d < 16 && b.shape < residual::order_shape_count &&
+  require(b.kappa_h < 32 && b.kappa_d < 16 && b.window_h < 16 && b.window_d < 16 && b.shape < residual::order_shape_count && b.table < 4 &&
               b.epsilon <= residual::largest_epsilon_code, "a basis code is out of range");
+  const char* why = "";
+  if (!code.slices.empty() && !is_valid(code.slices, why)) refuse(std::string("slice frame: ") + why);
+  require(code.slices.empty() || !code.reciprocal, "a residual in slices of theta_i cannot be reciprocal");
   const residual::Layer* before = nullptr;
   for (const residual::Layer& layer : code.layers) {
     require(layer.end.size() == channels && layer.q.size() == channels, "a layer does not have one entry per channel");

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 // Bytes to a Material, and a Material to another evaluation level.
 #include "container/content.h"
+#include "decode/resample_slices.h"
 #include "eval/material_impl.h"
 #include "residual/reconstruct.h"
 
@@ -17,17 +18,20 @@ namespace {
 /// What prepare() needs to build the tables of any level.
 struct Source {
   residual::Coefficients coefficients;
+  LobeSet lobes;
   DecodeLimits limits;
 };
 
 residual::ResidualGrid grid_for(const Source& source, EvalLevel level) {
   if (level == EvalLevel::fast || source.coefficients.order.empty()) return {};
-  const residual::GridSize& size = level == EvalLevel::exact ? residual::exact_grid : residual::balanced_grid;
+  const residual::GridSize& size =
+      level == EvalLevel::exact ? residual::exact_grid : residual::balanced_grids[source.coefficients.basis.table];
   const std::size_t bytes = residual::grid_bytes(size, source.coefficients.reciprocal, source.coefficients.channels);
   if (bytes > source.limits.max_table_bytes)
     throw Error(ErrorCode::limit_exceeded, "the " + std::string(to_string(level)) + " table needs " + std::to_string(bytes) +
                                                " bytes, the limit is " + std::to_string(source.limits.max_table_bytes));
-  return residual::reconstruct(source.coefficients, size);
+  return source.coefficients.slices.empty() ? residual::reconstruct(source.coefficients, size)
+                                            : decode::resample_slices(source.coefficients, source.lobes, size);
 }
 
 }  // namespace
@@ -50,6 +54,7 @@ Material Material::decode(std::span<const std::byte> bytes, const DecodeOptions&
   auto source = std::make_shared<Source>();
   source->coefficients = residual::dequantise(content.residual, content.component.transform, content.residual.layers.size());
   source->coefficients.channels = info.channels.count;
+  source->lobes = content.lobes;
   source->limits = options.limits;
   auto impl = eval::make_impl(std::move(info), std::move(content.lobes), grid_for(*source, options.level), options.level);
   impl->source = std::move(source);

@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "encode/bins.h"
 
+#include "encode/bin_positions.h"
+
 #include <algorithm>
 #include <cmath>
 #include <numbers>
@@ -8,15 +10,9 @@
 namespace brdf::encode {
 namespace {
 
-constexpr double lowest_cosine = 0.02;  // 88.9 degrees: beyond it measurements are extrapolations
-
 struct Axis {
   std::vector<double> u, sine, cosine, width;
 };
-
-double theta_of(double u, double kappa) noexcept {
-  return 2 * std::asin(std::min(1.0, residual::unwarp(u, kappa) / std::numbers::sqrt2));
-}
 
 Axis axis(int n, double kappa) {
   Axis a;
@@ -44,13 +40,6 @@ class LogRatio {
   double epsilon_;
   std::vector<double> l_;
 };
-
-/// Offsets of sub-positions from the middle of a cell, in cells.
-std::vector<double> offsets(int count) {
-  std::vector<double> o;
-  for (int i = 0; i < count; ++i) o.push_back((i + 0.5) / count - 0.5);
-  return o;
-}
 
 }  // namespace
 
@@ -81,7 +70,6 @@ Bins sample_bins(const Measurement& m, const LobeSet& lobes, const residual::Bas
 
   LogRatio ratio(lobes, basis.epsilon);
   const MeasurementInterpolator reference(m);
-  const std::vector<double> offset = offsets(substeps);
   std::vector<double> f(n), y(n);
   std::size_t cell = 0;
   for (int i = 0; i < n_h; ++i)
@@ -91,30 +79,25 @@ Bins sample_bins(const Measurement& m, const LobeSet& lobes, const residual::Bas
         const double base = h.cosine[ih] * d.cosine[jd], tilt = h.sine[ih] * d.sine[jd] * b.cos_phi[kp];
         b.cos_i[cell] = base - tilt;
         b.cos_o[cell] = base + tilt;
-        if (std::min(b.cos_i[cell], b.cos_o[cell]) < lowest_cosine) continue;
-        int seen = 0;
-        for (const double oh : offset)
-          for (const double od : offset)
-            for (const double op : offset) {
-              Vec3d wi, wo;
-              geometry::directions_from_half_difference(theta_of((i + 0.5 + oh) / n_h, basis.kappa_h),
-                                                        theta_of((j + 0.5 + od) / n_d, basis.kappa_d),
-                                                        (k + 0.5 + op) / n_p * std::numbers::pi, wi, wo);
-              if (std::min(wi.z, wo.z) < lowest_cosine || !reference.eval(wi, wo, f)) continue;
-              ratio(wi, wo, f.data(), y.data());
-              ++seen;
-              for (std::size_t c = 0; c < n; ++c) {
-                b.f[cell * n + c] += f[c];
-                b.y[cell * n + c] += y[c];
-              }
-            }
-        if (seen == 0) continue;
-        b.valid[cell] = 1;
-        for (std::size_t c = 0; c < n; ++c) {
-          b.f[cell * n + c] /= seen;
-          b.y[cell * n + c] /= seen;
-        }
       }
+  std::vector<int> seen(cells, 0);
+  for_sub_positions(b, basis, substeps, [&](std::size_t at, const Vec3d& wi, const Vec3d& wo, double) {
+    if (!reference.eval(wi, wo, f)) return;
+    ratio(wi, wo, f.data(), y.data());
+    ++seen[at];
+    for (std::size_t c = 0; c < n; ++c) {
+      b.f[at * n + c] += f[c];
+      b.y[at * n + c] += y[c];
+    }
+  });
+  for (std::size_t at = 0; at < cells; ++at) {
+    if (seen[at] == 0) continue;
+    b.valid[at] = 1;
+    for (std::size_t c = 0; c < n; ++c) {
+      b.f[at * n + c] /= seen[at];
+      b.y[at * n + c] /= seen[at];
+    }
+  }
   return b;
 }
 

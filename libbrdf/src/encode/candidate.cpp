@@ -4,6 +4,7 @@
 #include "encode/bins.h"
 #include "encode/distortion.h"
 #include "encode/layers.h"
+#include "encode/slice_model.h"
 
 #include <brdf/version.h>
 
@@ -38,29 +39,60 @@ Encoded lobes_only(const container::Content& frame) {
   return e;
 }
 
-Candidate::Candidate(const Measurement& m, const container::Content& frame, const residual::BasisCodes& codes,
-                     bool reciprocal, const EffortStep& effort, const metrics::QuerySet& queries)
-    : frame_(frame), basis_(codes), reciprocal_(reciprocal), passes_(effort.passes) {
-  const LobeSet& lobes = frame.lobes;
+Candidate Candidate::half_difference(const Measurement& m, const container::Content& frame, const residual::BasisCodes& codes,
+                                     bool reciprocal, const EffortStep& effort, const metrics::QuerySet& queries) {
+  residual::ResidualCode code;
+  code.basis = codes;
+  code.reciprocal = reciprocal;
+  code.channels = m.channels.count;
+  Candidate c(frame, code, residual::coefficient_order(residual::order_shapes[codes.shape], reciprocal, static_cast<std::uint32_t>(effort.coefficients)),
+              effort.passes);
   const residual::Basis basis = residual::basis_of(codes);
-  const auto order = residual::coefficient_order(residual::order_shapes[codes.shape], reciprocal,
-                                                 static_cast<std::uint32_t>(effort.coefficients));
+  const residual::ChannelTransform transform = frame.component.transform;
   const MetricMix mix;
-  const Bins bins = sample_bins(m, lobes, basis, effort.bins_h, effort.bins_d, effort.bins_p, effort.substeps);
-  model_ = cell_model(bins, cell_weights(bins, basis.epsilon, mix), basis, order, frame_.component.transform);
-  if (effort.image_quality > 0)
-    add_environment(model_, m, lobes, queries, basis, order, frame_.component.transform, mix.environment);
-  start_ = solve_coefficients(model_);
+  const Bins bins = sample_bins(m, frame.lobes, basis, effort.bins_h, effort.bins_d, effort.bins_p, effort.substeps);
+  c.model_ = cell_model(bins, cell_weights(bins, basis.epsilon, mix), basis, c.order_, transform);
+  if (effort.image_quality > 0) add_environment(c.model_, m, frame.lobes, queries, basis, c.order_, transform, mix.environment);
+  c.start_ = solve_coefficients(c.model_);
+  return c;
+}
+
+std::optional<Candidate> Candidate::in_slices(const Measurement& m, const container::Content& frame, const residual::BasisCodes& codes,
+                                              const SliceSettings& settings, const EffortStep& effort, const metrics::QuerySet& queries) {
+  std::optional<residual::SliceFrame> slices = slice_frame(m, settings.ndf_step);
+  if (!slices) return {};
+  residual::ResidualCode code;
+  code.basis = codes;
+  code.basis.shape = static_cast<std::uint8_t>(settings.shape);
+  code.slices = *slices;
+  code.channels = m.channels.count;
+  Candidate c(frame, code, residual::coefficient_order(residual::order_shapes[settings.shape], false,
+                                                       static_cast<std::uint32_t>(settings.coefficients), residual::reach_of(*slices)),
+              effort.passes);
+  const residual::Basis basis = residual::basis_of(codes);
+  const residual::ChannelTransform transform = frame.component.transform;
+  const MetricMix mix;
+  const Bins bins = sample_bins(m, frame.lobes, basis, effort.bins_h, effort.bins_d, effort.bins_p, effort.substeps);
+  const SliceSamples samples = sample_slices(m, *slices);
+  const std::vector<double> weights = slice_weights(bins, cell_weights(bins, basis.epsilon, mix), basis, *slices, samples);
+  c.start_ = slice_coefficients(samples, c.order_, transform);
+  if (c.order_.size() > static_cast<std::size_t>(largest_matrix)) {
+    c.model_ = slice_diagonal(samples, weights, c.order_, c.start_);
+    return c;
+  }
+  c.model_ = slice_model(samples, weights, c.order_, transform);
+  if (effort.image_quality > 0) add_environment(c.model_, m, samples, *slices, queries, c.order_, transform, mix.environment);
+  return c;
 }
 
 Encoded Candidate::encode(int step_code, double lambda_scale, int layers) const {
   Encoded e;
   e.content = frame_;
   e.step_code = step_code;
-  const Quantised q = quantise(model_, start_, basis_, reciprocal_, {residual::step_of(step_code), lambda_scale, passes_});
+  const Quantised q = quantise(model_, start_, order_, code_.reciprocal, {residual::step_of(step_code), lambda_scale, passes_});
   e.error = q.error;
-  e.content.residual = make_layers(q, basis_, reciprocal_, step_code, layers);
-  e.content.component.reciprocal = reciprocal_ || e.content.residual.empty();
+  e.content.residual = make_layers(q, code_, step_code, layers);
+  e.content.component.reciprocal = code_.reciprocal || e.content.residual.empty();
   e.bytes = container::pack(e.content);
   return e;
 }

@@ -8,6 +8,7 @@
 #include "encode/quantiser.h"
 
 #include <cstdint>
+#include <optional>
 #include <vector>
 
 namespace brdf::encode {
@@ -22,9 +23,22 @@ struct Encoded {
 
 class Candidate {
  public:
-  /// `frame`: all that a file says but its residual.
-  Candidate(const Measurement& m, const container::Content& frame, const residual::BasisCodes& basis, bool reciprocal,
-            const EffortStep& effort, const metrics::QuerySet& queries);
+  /// In half/difference coordinates. `frame`: all that a file says but its residual.
+  static Candidate half_difference(const Measurement& m, const container::Content& frame, const residual::BasisCodes& basis,
+                                   bool reciprocal, const EffortStep& effort, const metrics::QuerySet& queries);
+
+  /// How a residual in slices is set up.
+  struct SliceSettings {
+    int ndf_step = 8;          ///< the ndf is rounded to steps of 2^-(ndf_step / 2) octaves
+    int shape = 4;             ///< order of the coefficients
+    int coefficients = 2000;   ///< beyond largest_matrix the error model keeps only its diagonal
+  };
+  static constexpr int largest_matrix = 4096;
+
+  /// In the measurement's own slices; none for measurements that have none. `basis` is that of the balanced table.
+  static std::optional<Candidate> in_slices(const Measurement& m, const container::Content& frame,
+                                            const residual::BasisCodes& basis, const SliceSettings& settings,
+                                            const EffortStep& effort, const metrics::QuerySet& queries);
 
   /// Quantised with one step.
   Encoded encode(int step_code, double lambda_scale, int layers) const;
@@ -34,9 +48,12 @@ class Candidate {
   Encoded encode_to_size(std::uint64_t bytes) const;
 
  private:
+  Candidate(container::Content frame, residual::ResidualCode code, std::vector<residual::Frequency> order, int passes)
+      : frame_(std::move(frame)), code_(std::move(code)), order_(std::move(order)), passes_(passes) {}
+
   container::Content frame_;
-  residual::BasisCodes basis_;
-  bool reciprocal_;
+  residual::ResidualCode code_;  ///< without layers
+  std::vector<residual::Frequency> order_;
   int passes_;
   ErrorModel model_;
   std::vector<std::vector<double>> start_;

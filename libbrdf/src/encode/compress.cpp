@@ -6,6 +6,7 @@
 #include "encode/candidate.h"
 #include "encode/effort.h"
 #include "encode/error_search.h"
+#include "encode/size_search.h"
 #include "encode/verification.h"
 
 #include <brdf/encode.h>
@@ -161,18 +162,10 @@ EncodeResult compress(const Measurement& m, const EncodeOptions& options, const 
                                                  std::to_string(best.bytes.size()) + " bytes");
     summary.fit = std::move(smaller.summary);
   } else {
-    const auto variants = encode::basis_variants(lobes, epsilon, effort.variants);
-    double error = 0;
-    bool have = false;
-    for (std::size_t i = 0; i < variants.size(); ++i) {
-      stages.at("residual", 0.35 + 0.5 * static_cast<double>(i) / static_cast<double>(variants.size()));
-      const Candidate candidate(m, frame, variants[i], reciprocal, effort, queries);
-      Encoded e = candidate.encode_to_size(size);
-      if (e.bytes.empty() || (have && e.error >= error)) continue;
-      error = e.error;
-      best = std::move(e);
-      have = true;
-    }
+    const encode::SearchSpace space{m,      frame,   encode::basis_variants(lobes, epsilon, effort.variants), reciprocal,
+                                    effort, queries, options.threads};
+    Encoded found = encode::encode_to_size(space, size, [&](double share) { stages.at("residual", 0.35 + 0.5 * share); });
+    if (!found.bytes.empty()) best = std::move(found);
   }
   summary.seconds_residual = seconds_since(start);
 

@@ -19,7 +19,9 @@ struct EffortStep {
   int coefficients;                                    ///< candidates per channel
   double image_quality;                                ///< share of the image rows in the error model; 0: none
   int passes;                                          ///< of rate-distortion optimisation per quantiser step
-  int variants;                                        ///< bases tried
+  int variants;                                        ///< bases tried in half/difference coordinates
+  int slice_variants;                                  ///< ways tried to write the slices of a measurement that has them
+  int table_variants;                                  ///< shapes and warps tried for the balanced table of such a one
   double verify_quality;                               ///< share of the queries that verify the file
 };
 

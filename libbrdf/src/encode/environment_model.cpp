@@ -42,55 +42,39 @@ class BasisRow {
 
 }  // namespace
 
-void add_environment(ErrorModel& model, const Measurement& m, const LobeSet& lobes, const metrics::QuerySet& queries,
-                     const residual::Basis& basis, std::span<const residual::Frequency> order,
-                     residual::ChannelTransform transform, double weight) {
+ImageSlopes image_slopes(const Measurement& m, const metrics::QuerySet& queries) {
   const metrics::ImageRows& image = queries.image[0];
   const int channels = m.channels.count;
   const auto n = static_cast<std::size_t>(channels);
   const MeasurementInterpolator reference(m);
-
-  // what the image shows, for the slope of the display curve
-  std::vector<double> f(image.rows * n);
+  ImageSlopes out;
+  out.f.resize(image.rows * n);
   std::vector<double> light(image.pixels * n, 0.0);
   for (std::size_t r = 0; r < image.rows; ++r) {
     const std::size_t row = image.first + r;
-    reference.eval(Vec3d(queries.wi[row]), Vec3d(queries.wo[row]), std::span(f).subspan(r * n, n));
+    reference.eval(Vec3d(queries.wi[row]), Vec3d(queries.wo[row]), std::span(out.f).subspan(r * n, n));
     for (std::size_t c = 0; c < n; ++c)
-      light[queries.pixel[row] * n + c] += f[r * n + c] * queries.gain(row, static_cast<int>(c), channels);
+      light[queries.pixel[row] * n + c] += out.f[r * n + c] * queries.gain(row, static_cast<int>(c), channels);
   }
   double mean = 0;
   for (const double v : light) mean += v;
   mean /= static_cast<double>(light.size());
-  if (!(mean > 0)) return;
+  if (!(mean > 0)) return out;
   const double exposure = 0.5 / mean;
-  std::vector<double> slope(light.size());  // of the shown value per unit of light
+  out.slope.resize(light.size());
   for (std::size_t i = 0; i < light.size(); ++i) {
     const double v = std::max(light[i], 1e-3 * mean);
-    slope[i] = light[i] * exposure < 1 ? std::pow(v * exposure, 1 / gamma) / gamma / v : 0.0;
+    out.slope[i] = light[i] * exposure < 1 ? std::pow(v * exposure, 1 / gamma) / gamma / v : 0.0;
   }
+  return out;
+}
 
-  // rows of the operator: pixel values as linear functions of the coefficients (one for all channels) and their target
-  std::vector<double> rows(image.pixels * model.size, 0.0), target(image.pixels * n, 0.0), l(n);
-  BasisRow basis_row(basis, order);
-  for (std::size_t r = 0; r < image.rows; ++r) {
-    const std::size_t row = image.first + r, pixel = queries.pixel[row];
-    const Vec3d wi(queries.wi[row]), wo(queries.wo[row]);
-    double g = 0;
-    for (std::size_t c = 0; c < n; ++c)
-      g += slope[pixel * n + c] * (f[r * n + c] + basis.epsilon) * queries.gain(row, static_cast<int>(c), channels);
-    g /= static_cast<double>(n);
-    if (g == 0) continue;
-    eval_lobes(lobes, wi, wo, l);
-    for (std::size_t c = 0; c < n; ++c)
-      target[pixel * n + c] += g * std::log((f[r * n + c] + basis.epsilon) / (l[c] + basis.epsilon));
-    basis_row.add(geometry::half_difference(wi, wo), g, rows.data() + pixel * model.size);
-  }
-
-  const double scale = weight / image.pixels;
+void add_rows(ErrorModel& model, std::span<const double> rows, std::span<const double> targets,
+              const std::vector<double>& channel_matrix, double scale) {
+  const std::size_t count = rows.size() / model.size, n = model.b.size();
   constexpr std::size_t block = 8;  // rows at a time, so that the matrix is read once per block
-  for (std::size_t p0 = 0; p0 < image.pixels; p0 += block) {
-    const std::size_t p1 = std::min<std::size_t>(image.pixels, p0 + block);
+  for (std::size_t p0 = 0; p0 < count; p0 += block) {
+    const std::size_t p1 = std::min(count, p0 + block);
     for (std::size_t i = 0; i < model.size; ++i) {
       double* out = model.gram.data() + i * model.size;
       for (std::size_t p = p0; p < p1; ++p) {
@@ -100,15 +84,42 @@ void add_environment(ErrorModel& model, const Measurement& m, const LobeSet& lob
       }
     }
   }
-  const std::vector<double> matrix = residual::channel_matrix(transform, channels);
   for (std::size_t t = 0; t < n; ++t)
-    for (std::size_t p = 0; p < image.pixels; ++p) {
+    for (std::size_t p = 0; p < count; ++p) {
       double y = 0;
-      for (std::size_t c = 0; c < n; ++c) y += matrix[t * n + c] * target[p * n + c];
+      for (std::size_t c = 0; c < n; ++c) y += channel_matrix[t * n + c] * targets[p * n + c];
       model.constant += scale * y * y;
       const double* a = rows.data() + p * model.size;
       for (std::size_t j = 0; j < model.size; ++j) model.b[t][j] += scale * y * a[j];
     }
+}
+
+void add_environment(ErrorModel& model, const Measurement& m, const LobeSet& lobes, const metrics::QuerySet& queries,
+                     const residual::Basis& basis, std::span<const residual::Frequency> order,
+                     residual::ChannelTransform transform, double weight) {
+  const metrics::ImageRows& image = queries.image[0];
+  const int channels = m.channels.count;
+  const auto n = static_cast<std::size_t>(channels);
+  const ImageSlopes shown = image_slopes(m, queries);
+  if (shown.slope.empty()) return;
+
+  // rows of the operator: pixel values as linear functions of the coefficients (one for all channels) and their target
+  std::vector<double> rows(image.pixels * model.size, 0.0), target(image.pixels * n, 0.0), l(n);
+  BasisRow basis_row(basis, order);
+  for (std::size_t r = 0; r < image.rows; ++r) {
+    const std::size_t row = image.first + r, pixel = queries.pixel[row];
+    const Vec3d wi(queries.wi[row]), wo(queries.wo[row]);
+    double g = 0;
+    for (std::size_t c = 0; c < n; ++c)
+      g += shown.slope[pixel * n + c] * (shown.f[r * n + c] + basis.epsilon) * queries.gain(row, static_cast<int>(c), channels);
+    g /= static_cast<double>(n);
+    if (g == 0) continue;
+    eval_lobes(lobes, wi, wo, l);
+    for (std::size_t c = 0; c < n; ++c)
+      target[pixel * n + c] += g * std::log((shown.f[r * n + c] + basis.epsilon) / (l[c] + basis.epsilon));
+    basis_row.add(geometry::half_difference(wi, wo), g, rows.data() + pixel * model.size);
+  }
+  add_rows(model, rows, target, residual::channel_matrix(transform, channels), weight / image.pixels);
 }
 
 }  // namespace brdf::encode

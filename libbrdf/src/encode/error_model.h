@@ -18,7 +18,8 @@ namespace brdf::encode {
 /// G is shared by all channels; b and the constant are per transformed channel.
 struct ErrorModel {
   std::size_t size = 0;                  ///< coefficients
-  std::vector<double> gram;              ///< size x size, symmetric
+  std::vector<double> gram;              ///< size x size, symmetric; empty when `diagonal` is all there is
+  std::vector<double> diagonal;          ///< for models too large for a matrix
   std::vector<std::vector<double>> b;    ///< [channel][size]
   double constant = 0;                   ///< E(0)
 };
@@ -32,6 +33,17 @@ ErrorModel cell_model(const Bins& bins, std::span<const double> weights, const r
 void add_environment(ErrorModel& model, const Measurement& m, const LobeSet& lobes, const metrics::QuerySet& queries,
                      const residual::Basis& basis, std::span<const residual::Frequency> order,
                      residual::ChannelTransform transform, double weight);
+
+/// What an image under the environment shows: f at its rows, and the slope of the display curve per unit of light at its
+/// pixels, [row or pixel][channel]. No slopes when the material is black.
+struct ImageSlopes {
+  std::vector<double> f, slope;
+};
+ImageSlopes image_slopes(const Measurement& m, const metrics::QuerySet& queries);
+
+/// Adds scale * (row . a - target)^2 for rows of `model.size` numbers; targets [row][channel] before the channel transform.
+void add_rows(ErrorModel& model, std::span<const double> rows, std::span<const double> targets,
+              const std::vector<double>& channel_matrix, double scale);
 
 /// E(a) for all channels.
 double model_error(const ErrorModel& model, const std::vector<std::vector<double>>& a);

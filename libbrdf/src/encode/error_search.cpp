@@ -30,7 +30,7 @@ Encoded encode_to_error(const Measurement& m, const container::Content& frame, c
   EffortStep step = effort;
   constexpr int coarsest = 24, finest = 112;
   for (int round = 0; round < 2; ++round, step.coefficients *= 2) {
-    const Candidate candidate(m, frame, basis, reciprocal, step, queries);
+    const Candidate candidate = Candidate::half_difference(m, frame, basis, reciprocal, step, queries);
     const auto encode_at = [&](int code) {
       Encoded e = candidate.encode(code, 1.0, 1);
       const int layers = layer_count(e.bytes.size());

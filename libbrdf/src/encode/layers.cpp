@@ -10,12 +10,8 @@ int layer_count(std::uint64_t file_bytes) noexcept {
   return std::clamp(static_cast<int>(std::bit_width(file_bytes / 640)) + 1, 1, 6);
 }
 
-residual::ResidualCode make_layers(const Quantised& quantised, const residual::BasisCodes& basis, bool reciprocal,
-                                   int step_code, int count) {
-  residual::ResidualCode code;
-  code.basis = basis;
-  code.reciprocal = reciprocal;
-  code.channels = static_cast<int>(quantised.q.size());
+residual::ResidualCode make_layers(const Quantised& quantised, const residual::ResidualCode& empty, int step_code, int count) {
+  residual::ResidualCode code = empty;
   const std::uint32_t last = *std::max_element(quantised.end.begin(), quantised.end.end());
   if (last == 0) return code;
 

@@ -8,8 +8,7 @@
 namespace brdf::encode {
 
 /// Splits by frequency into at most `count` layers of about doubling size; nothing but zeros gives none.
-residual::ResidualCode make_layers(const Quantised& quantised, const residual::BasisCodes& basis, bool reciprocal,
-                                   int step_code, int count);
+residual::ResidualCode make_layers(const Quantised& quantised, const residual::ResidualCode& empty, int step_code, int count);
 
 /// How many refinements a file of so many bytes should have: each costs about twelve bytes.
 int layer_count(std::uint64_t file_bytes) noexcept;

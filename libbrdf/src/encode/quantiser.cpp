@@ -75,17 +75,36 @@ std::uint32_t end_of(const std::vector<std::int32_t>& q) noexcept {
   return static_cast<std::uint32_t>(e);
 }
 
+/// The matrix of an error model, or its diagonal where that is all there is.
+class Curvature {
+ public:
+  explicit Curvature(const ErrorModel& model) : model_(model) {}
+  double at(std::size_t j) const noexcept { return model_.gram.empty() ? model_.diagonal[j] : model_.gram[j * model_.size + j]; }
+  /// slope += amount * column j
+  void add(std::size_t j, double amount, std::vector<double>& slope) const noexcept {
+    if (model_.gram.empty()) {
+      slope[j] += amount * model_.diagonal[j];
+      return;
+    }
+    const double* row = model_.gram.data() + j * model_.size;
+    for (std::size_t i = 0; i < model_.size; ++i) slope[i] += amount * row[i];
+  }
+
+ private:
+  const ErrorModel& model_;
+};
+
 constexpr double lambda_per_step2 = 0.12;  // slope of rate against distortion at a step, measured on several materials
 constexpr std::uint32_t look_beyond_end = 40;  // coefficients past the last one that may come alive again in a pass
 
 }  // namespace
 
 Quantised quantise(const ErrorModel& model, const std::vector<std::vector<double>>& start,
-                   const residual::BasisCodes& basis, bool reciprocal, const QuantiserSettings& settings) {
+                   const std::vector<residual::Frequency>& order, bool reciprocal, const QuantiserSettings& settings) {
   const std::size_t n = model.size, channels = model.b.size();
-  const auto order = residual::coefficient_order(residual::order_shapes[basis.shape], reciprocal, static_cast<std::uint32_t>(n));
   double mean_diagonal = 0;
-  for (std::size_t i = 0; i < n; ++i) mean_diagonal += model.gram[i * n + i];
+  const Curvature gram(model);
+  for (std::size_t i = 0; i < n; ++i) mean_diagonal += gram.at(i);
   mean_diagonal /= static_cast<double>(n);
   const double step = settings.step, lambda = lambda_per_step2 * settings.lambda_scale * step * step * mean_diagonal;
 
@@ -99,9 +118,7 @@ Quantised quantise(const ErrorModel& model, const std::vector<std::vector<double
       const double x = std::clamp(start[c][j] / step, -1e6, 1e6);
       q[j] = static_cast<std::int32_t>(x + (x > 0 ? 0.25 : -0.25));
       if (q[j] == 0) continue;
-      const double a = q[j] * step;
-      const double* row = model.gram.data() + j * n;
-      for (std::size_t i = 0; i < n; ++i) slope[c][i] += a * row[i];
+      gram.add(j, q[j] * step, slope[c]);
     }
     for (std::size_t i = 0; i < n; ++i) slope[c][i] -= model.b[c][i];
     out.end[c] = end_of(q);
@@ -113,7 +130,7 @@ Quantised quantise(const ErrorModel& model, const std::vector<std::vector<double
     rate.update(out.q, out.end);
     bool changed = false;
     for (std::uint32_t j = 0; j < n; ++j) {
-      const double curvature = model.gram[j * n + j];
+      const double curvature = gram.at(j);
       if (!(curvature > 0)) continue;
       for (std::size_t c = 0; c < channels; ++c) {
         if (j >= out.end[c] + look_beyond_end) continue;
@@ -134,9 +151,7 @@ Quantised quantise(const ErrorModel& model, const std::vector<std::vector<double
           }
         }
         if (best == now) continue;
-        const double d = (best - now) * step;
-        const double* row = model.gram.data() + std::size_t{j} * n;
-        for (std::size_t i = 0; i < n; ++i) slope[c][i] += d * row[i];
+        gram.add(j, (best - now) * step, slope[c]);
         out.q[c][j] = best;
         changed = true;
       }

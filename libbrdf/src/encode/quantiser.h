@@ -28,6 +28,6 @@ struct QuantiserSettings {
 
 /// Coordinate descent over the coefficients in coding order, with the costs that the entropy coder would have.
 Quantised quantise(const ErrorModel& model, const std::vector<std::vector<double>>& start,
-                   const residual::BasisCodes& basis, bool reciprocal, const QuantiserSettings& settings);
+                   const std::vector<residual::Frequency>& order, bool reciprocal, const QuantiserSettings& settings);
 
 }  // namespace brdf::encode

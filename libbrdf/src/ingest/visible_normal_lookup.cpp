@@ -98,19 +98,7 @@ double VisibleNormalLookup::jacobian(double u_i, const Vec3d& wi, SquarePoint ha
   return interpolate(table_.ndf, table_.ndf_height, table_.ndf_width, half) / (4 * std::max(sigma, smallest_area));
 }
 
-bool VisibleNormalLookup::eval(const Vec3d& wi, const Vec3d& wo, std::span<double> f) const noexcept {
-  if (!(wi.z > 0) || !(wo.z > 0)) {
-    std::fill(f.begin(), f.end(), 0.0);
-    return false;
-  }
-
-  // the half vector, its length does not matter; above the horizon it cannot vanish
-  const Vec3d h = wi + wo;
-  const double rho_h = std::sqrt(h.x * h.x + h.y * h.y), rho_i = std::sqrt(wi.x * wi.x + wi.y * wi.y);
-  const double theta_i = std::atan2(rho_i, wi.z);
-  const SquarePoint half = {u_of_theta(std::atan2(rho_h, h.z)), v_of_phi(azimuth_between(wi, rho_i, h, rho_h))};
-
-  const SliceBlend blend = elevation_blend(theta_i);
+void VisibleNormalLookup::stored(const SliceBlend& blend, SquarePoint half, std::span<double> values) const noexcept {
   const SquarePoint s = visible_normals_.to_uniform(half, blend);
 
   const auto height = static_cast<std::size_t>(table_.height), width = static_cast<std::size_t>(table_.width);
@@ -127,7 +115,29 @@ bool VisibleNormalLookup::eval(const Vec3d& wi, const Vec3d& wo, std::span<doubl
     corners[count++] = {upper, above * (1 - x.fraction)};
     corners[count++] = {upper + channels_, above * x.fraction};
   }
-  weighted_sum(corners, f);
+  weighted_sum(corners, values);
+}
+
+void VisibleNormalLookup::reflected(double theta_i, SquarePoint half, std::span<double> f_cos) const noexcept {
+  stored(elevation_blend(theta_i), half, f_cos);
+  if (!table_.jacobian) return;
+  const double scale = jacobian(u_of_theta(theta_i), {std::sin(theta_i), 0, std::cos(theta_i)}, half);
+  for (double& value : f_cos) value *= scale;
+}
+
+bool VisibleNormalLookup::eval(const Vec3d& wi, const Vec3d& wo, std::span<double> f) const noexcept {
+  if (!(wi.z > 0) || !(wo.z > 0)) {
+    std::fill(f.begin(), f.end(), 0.0);
+    return false;
+  }
+
+  // the half vector, its length does not matter; above the horizon it cannot vanish
+  const Vec3d h = wi + wo;
+  const double rho_h = std::sqrt(h.x * h.x + h.y * h.y), rho_i = std::sqrt(wi.x * wi.x + wi.y * wi.y);
+  const double theta_i = std::atan2(rho_i, wi.z);
+  const SquarePoint half = {u_of_theta(std::atan2(rho_h, h.z)), v_of_phi(azimuth_between(wi, rho_i, h, rho_h))};
+
+  stored(elevation_blend(theta_i), half, f);
 
   // the table holds f cos theta_o
   constexpr double smallest_cosine = 1e-9;

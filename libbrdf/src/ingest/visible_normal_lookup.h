@@ -19,7 +19,13 @@ class VisibleNormalLookup {
   /// As MeasurementInterpolator::eval.
   bool eval(const Vec3d& wi, const Vec3d& wo, std::span<double> f) const noexcept;
 
+  /// f cos theta_o as stored: not clipped at 0, and wo may be below the horizon, where tables hold what interpolation
+  /// towards the horizon needs. `half` is the half vector in the coordinates of the table: sqrt(2 theta_h / pi) and
+  /// (phi_h - phi_i + pi) / 2 pi.
+  void reflected(double theta_i, SquarePoint half, std::span<double> f_cos) const noexcept;
+
  private:
+  void stored(const SliceBlend& blend, SquarePoint half, std::span<double> values) const noexcept;
   SliceBlend elevation_blend(double theta_i) const noexcept;
   double jacobian(double u_i, const Vec3d& wi, SquarePoint half) const noexcept;
 

@@ -10,9 +10,9 @@
 
 namespace brdf::residual {
 
-LayerCodec::LayerCodec(const BasisCodes& basis, bool reciprocal, int channels, std::uint32_t count)
+LayerCodec::LayerCodec(const BasisCodes& basis, bool reciprocal, int channels, std::uint32_t count, const Extent& reach)
     : reciprocal_(reciprocal),
-      order_(coefficient_order(order_shapes[basis.shape], reciprocal, count)),
+      order_(coefficient_order(order_shapes[basis.shape], reciprocal, count, reach)),
       field_(channels, extent(order_).k, extent(order_).l, extent(order_).m) {}
 
 Layer decode_layer(LayerCodec& codec, const Layer* before, std::span<const std::byte> bytes, std::size_t channels,

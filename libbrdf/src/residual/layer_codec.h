@@ -15,7 +15,8 @@ namespace brdf::residual {
 class LayerCodec {
  public:
   /// `count`: how many places of the order any layer may use.
-  LayerCodec(const BasisCodes& basis, bool reciprocal, int channels, std::uint32_t count);
+  LayerCodec(const BasisCodes& basis, bool reciprocal, int channels, std::uint32_t count,
+             const Extent& reach = {max_k, max_l, max_m});
 
   /// Codes the coefficients of a layer whose ends are known, with any coder; fills or reads layer.q.
   template <class Coder>

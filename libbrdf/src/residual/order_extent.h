@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// How far an order reaches along each axis.
+// How far a list of frequencies reaches along each axis.
 #pragma once
 
 #include "residual/coefficient_order.h"
@@ -8,10 +8,6 @@
 #include <span>
 
 namespace brdf::residual {
-
-struct Extent {
-  int k = 0, l = 0, m = 0;  ///< one past the largest frequency
-};
 
 inline Extent extent(std::span<const Frequency> order) noexcept {
   Extent e;

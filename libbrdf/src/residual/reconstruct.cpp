@@ -62,6 +62,7 @@ AxisTables axis_tables(int n, int frequencies, int harmonics, double kappa, doub
 Coefficients dequantise(const ResidualCode& code, ChannelTransform transform, std::size_t layers) {
   Coefficients c;
   c.basis = code.basis;
+  c.slices = code.slices;
   c.reciprocal = code.reciprocal;
   c.channels = code.channels;
   c.transform = transform;
@@ -69,7 +70,7 @@ Coefficients dequantise(const ResidualCode& code, ChannelTransform transform, st
   std::uint32_t count = 0;
   for (std::size_t i = 0; i < layers; ++i)
     for (const std::uint32_t e : code.layers[i].end) count = std::max(count, e);
-  c.order = coefficient_order(order_shapes[code.basis.shape], code.reciprocal, count);
+  c.order = coefficient_order(order_shapes[code.basis.shape], code.reciprocal, count, reach_of(code.slices));
   c.values.assign(static_cast<std::size_t>(code.channels), std::vector<float>(c.order.size(), 0.0F));
   for (std::size_t i = 0; i < layers; ++i) {
     const Layer& layer = code.layers[i];

@@ -2,7 +2,7 @@
 // What the lobes miss, as quantised coefficients: the plain type between fit and container.
 #pragma once
 
-#include "residual/coefficient_order.h"
+#include "residual/slice_frame.h"
 
 #include <cstdint>
 #include <vector>
@@ -17,6 +17,7 @@ struct BasisCodes {
   std::uint8_t window_d = 6;   ///< 0..15
   std::uint8_t epsilon = 118;  ///< 0..largest_epsilon_code
   std::uint8_t shape = 0;      ///< index into order_shapes
+  std::uint8_t table = 0;      ///< index into balanced_grids: how the nodes of the balanced table are shared out
 };
 
 inline constexpr int largest_epsilon_code = 227;  ///< 2^99
@@ -44,6 +45,7 @@ struct Layer {
 
 struct ResidualCode {
   BasisCodes basis;
+  SliceFrame slices;        ///< empty: coefficients are in half/difference coordinates
   bool reciprocal = false;  ///< even m only
   int channels = 3;
   std::vector<Layer> layers;

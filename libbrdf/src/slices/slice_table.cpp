@@ -1,0 +1,88 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "slices/slice_table.h"
+
+#include "residual/basis.h"
+#include "residual/channel_transform.h"
+
+#include <algorithm>
+#include <cmath>
+#include <numbers>
+
+namespace brdf::slices {
+namespace {
+
+/// table[j * n + i] = cos(pi j (i + 1/2) / n)
+std::vector<float> cosines_at_middles(std::size_t n) {
+  std::vector<float> table(n * n), row(n);
+  for (std::size_t i = 0; i < n; ++i) {
+    residual::cosines(std::cos(std::numbers::pi * (static_cast<double>(i) + 0.5) / static_cast<double>(n)), static_cast<int>(n), row.data());
+    for (std::size_t j = 0; j < n; ++j) table[j * n + i] = row[j];
+  }
+  return table;
+}
+
+/// out[a][i][b] = sum over j of cosine[j][i] in[a][j][b]
+std::vector<float> along_axis(const std::vector<float>& in, std::size_t outer, std::size_t n, std::size_t inner) {
+  const std::vector<float> cosine = cosines_at_middles(n);
+  std::vector<float> out(in.size(), 0.0f);
+  for (std::size_t a = 0; a < outer; ++a)
+    for (std::size_t j = 0; j < n; ++j) {
+      const float* from = in.data() + (a * n + j) * inner;
+      if (std::all_of(from, from + inner, [](float v) { return v == 0; })) continue;
+      for (std::size_t i = 0; i < n; ++i) {
+        float* to = out.data() + (a * n + i) * inner;
+        const float c = cosine[j * n + i];
+        for (std::size_t b = 0; b < inner; ++b) to[b] += c * from[b];
+      }
+    }
+  return out;
+}
+
+constexpr float largest_exponent = 80.0f;
+
+}  // namespace
+
+SliceTable::SliceTable(const residual::Coefficients& c)
+    : map_(c.slices), width_(c.slices.width), half_height_(static_cast<std::size_t>(c.slices.half_height())), height_(c.slices.height),
+      channels_(static_cast<std::size_t>(c.channels)) {
+  const std::size_t slices = map_.slices(), nodes = slices * half_height_ * width_;
+  const std::vector<double> matrix = residual::channel_matrix(c.transform, c.channels);
+  const auto epsilon = static_cast<float>(residual::epsilon_of(c.slices.epsilon));
+  std::vector<std::vector<float>> transformed;
+  for (const std::vector<float>& values : c.values) {
+    std::vector<float> cube(nodes, 0.0f);
+    for (std::size_t j = 0; j < values.size(); ++j)
+      cube[(c.order[j].m * half_height_ + c.order[j].l) * width_ + c.order[j].k] = values[j];
+    cube = along_axis(cube, 1, slices, half_height_ * width_);
+    cube = along_axis(cube, slices, half_height_, width_);
+    transformed.push_back(along_axis(cube, slices * half_height_, width_, 1));
+  }
+  values_.resize(nodes * channels_);
+  for (std::size_t n = 0; n < nodes; ++n)
+    for (std::size_t ch = 0; ch < channels_; ++ch) {
+      float y = 0;
+      for (std::size_t t = 0; t < channels_; ++t) y += static_cast<float>(matrix[t * channels_ + ch]) * transformed[t][n];
+      values_[n * channels_ + ch] = std::max(std::exp(std::clamp(y, -largest_exponent, largest_exponent)) - epsilon, 0.0f);
+    }
+}
+
+void SliceTable::eval(const SliceAngles& at, double cos_o, std::span<float> f) const noexcept {
+  const SlicePoint p = map_.point(at, cos_o);
+  const float x = p.u * static_cast<float>(width_ - 1);
+  const float y = std::min(p.v * static_cast<float>(height_ - 1), static_cast<float>(half_height_ - 1));
+  const std::size_t left = std::min(static_cast<std::size_t>(x), width_ - 2);
+  const std::size_t low = half_height_ > 1 ? std::min(static_cast<std::size_t>(y), half_height_ - 2) : 0;
+  const float fx = x - static_cast<float>(left), fy = y - static_cast<float>(low);
+  const std::size_t row = width_ * channels_, slice = half_height_ * row, up = half_height_ > 1 ? row : 0;
+  const float* corner = values_.data() + p.slice * slice + low * row + left * channels_;
+  for (std::size_t c = 0; c < f.size(); ++c) {
+    const auto square = [&](const float* q) {
+      const float below = q[c] + fx * (q[c + channels_] - q[c]), above = q[up + c] + fx * (q[up + c + channels_] - q[up + c]);
+      return below + fy * (above - below);
+    };
+    const float lower = square(corner);
+    f[c] = p.scale * (lower + p.fraction * (square(corner + slice) - lower));
+  }
+}
+
+}  // namespace brdf::slices
