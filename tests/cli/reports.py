@@ -75,6 +75,24 @@ class Reports(CliTest):
         same = self.report("compare", compressed(), compressed())[0]
         self.assertEqual((same["log_mae"], same["cbrt_rms"], same["psnr_env"]), (0, 0, 60))
 
+    def test_where(self):
+        rows = self.report("where", measured(), compressed())
+        parts = [row for row in rows if "part" in row]
+        bands = [row for row in rows if "perfect" in row]
+        self.assertEqual(parts[0]["part"], "lobes")
+        self.assertLessEqual(sum(part["bytes"] for part in parts), compressed().stat().st_size)
+        self.assertTrue(all(part["bytes"] > 0 for part in parts))
+        self.assertEqual(bands[0]["perfect"], "none")
+        self.assertEqual({row["perfect"] for row in bands}, {"none", "theta_h", "theta_d", "theta_max", "channel"})
+        for row in bands[1:]:  # a part that is perfect cannot add to the error
+            self.assertLessEqual(row["log_mae"], bands[0]["log_mae"] * (1 + 1e-9))
+        self.assertLess(min(row["log_mae"] for row in bands), 0.95 * bands[0]["log_mae"])
+        # the bands of one axis share the whole error out between them
+        for axis in ["theta_h", "theta_d", "theta_max"]:
+            gains = sum(bands[0]["log_mae"] - row["log_mae"] for row in bands if row["perfect"] == axis)
+            self.assertAlmostEqual(gains, bands[0]["log_mae"], delta=1e-6 * bands[0]["log_mae"])
+        self.assertIn("if perfect", self.succeed("where", measured(), compressed()).stdout.decode())
+
     def test_bench(self):
         sheet, page = folder() / "rows.csv", folder() / "table.md"
         rows = self.report("bench", measured(), "--presets", "fastest", "--sizes", "300,1000", "--eval", "all",

@@ -62,6 +62,7 @@ ExitCode run(int argc, char** argv) {
                          add_info(program),
                          add_verify(program),
                          add_compare(program),
+                         add_where(program),
                          add_bench(program, command_line(argc, argv)),
                          add_eval(program),
                          add_sample(program),

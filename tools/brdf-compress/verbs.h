@@ -22,6 +22,7 @@ Verb add_convert(CLI::App& program);
 Verb add_info(CLI::App& program);
 Verb add_verify(CLI::App& program);
 Verb add_compare(CLI::App& program);
+Verb add_where(CLI::App& program);
 /// `command_line` is what made the program run; it is stated beside tables that go into documents.
 Verb add_bench(CLI::App& program, const std::string& command_line);
 Verb add_eval(CLI::App& program);
