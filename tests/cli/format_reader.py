@@ -59,7 +59,9 @@ class FormatReader(unittest.TestCase):
                 if level == "direct":
                     if refinements not in materials:
                         materials[refinements] = Brdfc(data, refinements)
-                    self.close(materials[refinements].eval(wi, wo), f, 1e-6, f"{file.name} {refinements} {wi} {wo}")
+                    # libbrdf holds the table in slices in float
+                    tolerance = 1e-4 if file.stem == "rgb-slices" else 1e-6
+                    self.close(materials[refinements].eval(wi, wo), f, tolerance, f"{file.name} {refinements} {wi} {wo}")
 
     def test_prefixes(self):
         for file in FILES:

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "golden/make_golden.h"
+#include "slices/slice_table.h"
 #include "support/direct_basis.h"
 #include "support/direction_batch.h"
 
@@ -8,6 +9,7 @@
 #include <cstdio>
 #include <functional>
 #include <map>
+#include <memory>
 #include <sstream>
 #include <utility>
 
@@ -33,11 +35,18 @@ std::vector<std::byte> cut(std::span<const std::byte> bytes, int refinements) {
 
 using Evaluator = std::function<std::vector<double>(const Vec3f& wi, const Vec3f& wo)>;
 
-/// The basis summed in double.
+/// The basis summed in double, or the table in slices, which decoding holds in float.
 Evaluator direct(const std::vector<std::byte>& file) {
   const container::Content content = container::unpack(file, {}, true).content;
   const auto coefficients =
       residual::dequantise(content.residual, content.component.transform, content.residual.layers.size());
+  if (!coefficients.slices.empty())
+    return [table = std::make_shared<slices::SliceTable>(coefficients)](const Vec3f& a, const Vec3f& b) {
+      const Vec3d wi(a), wo(b);
+      float f[3];
+      table->eval(slices::slice_angles(wi.x, wi.y, wi.z, wo.x, wo.y, wo.z), wo.z, f);
+      return std::vector<double>(f, f + 3);
+    };
   return [lobes = content.lobes, coefficients, empty = content.residual.empty()](const Vec3f& wi, const Vec3f& wo) {
     std::vector<double> f(static_cast<std::size_t>(lobes.channels));
     eval_lobes(lobes, Vec3d(wi), Vec3d(wo), f);

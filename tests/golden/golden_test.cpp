@@ -38,12 +38,14 @@ std::vector<fs::path> golden_files() {
 }
 
 /// Relative error that another compiler or mathematics library may bring. A node's half float may round the other way.
-double tolerance(const std::string& level) { return level == "fast" ? 2e-5 : level == "direct" ? 1e-6 : 1e-3; }
+double tolerance(const std::string& level, bool in_slices) {
+  return level == "fast" ? 2e-5 : level == "direct" ? (in_slices ? 1e-4 : 1e-6) : 1e-3;
+}
 
 TEST(Golden, EveryFileIsThere) {
   std::vector<std::string> names;
   for (const fs::path& file : golden_files()) names.push_back(file.stem().string());
-  for (const char* name : {"rgb-lobes", "rgb-reciprocal-layers", "scalar-one-way", "spectral-restart"})
+  for (const char* name : {"rgb-lobes", "rgb-reciprocal-layers", "scalar-one-way", "spectral-restart", "rgb-slices"})
     EXPECT_EQ(std::count(names.begin(), names.end(), name), 1) << name;
 }
 
@@ -51,7 +53,9 @@ TEST(Golden, FilesDecodeToTheExpectedValues) {
   for (const fs::path& file : golden_files()) {
     const auto bytes = bytes_of(read_text(file));
     const auto rows = from_text(read_text(fs::path(file).replace_extension(".txt")));
-    const auto refinements = container::unpack(bytes, {}, false).refinements_total;
+    const container::Unpacked unpacked = container::unpack(bytes, {}, false);
+    const auto refinements = unpacked.refinements_total;
+    const bool in_slices = unpacked.content.component.axes == container::AxesKind::slices;
     ASSERT_EQ(rows.size(), static_cast<std::size_t>(refinements + 1) * 4 * 12) << file;
     auto found = rows;
     evaluate(bytes, found);
@@ -60,7 +64,7 @@ TEST(Golden, FilesDecodeToTheExpectedValues) {
       const std::vector<double>& f = found[i].f;
       ASSERT_EQ(f.size(), row.f.size()) << file;
       for (std::size_t c = 0; c < f.size(); ++c)
-        EXPECT_NEAR(f[c], row.f[c], tolerance(row.level) * row.f[c] + 1e-7)
+        EXPECT_NEAR(f[c], row.f[c], tolerance(row.level, in_slices) * row.f[c] + 1e-7)
             << file.filename() << " " << row.level << " after " << row.refinements << ", theta_i "
             << std::acos(row.wi.z) << ", theta_o " << std::acos(row.wo.z);
     }
@@ -75,8 +79,11 @@ TEST(Golden, TablesApproximateTheBasis) {
         return r.level == level && r.refinements == like.refinements && r.wi == like.wi && r.wo == like.wo;
       });
     };
+    const bool in_slices = container::unpack(bytes_of(read_text(file)), {}, false).content.component.axes == container::AxesKind::slices;
     for (const Expectation& row : rows) {
       if (row.level != "direct") continue;
+      // coefficients in slices know no pole: where the half vector is the normal its azimuth decides, and it has none
+      if (in_slices && std::hypot(row.wi.x + row.wo.x, row.wi.y + row.wo.y) < 1e-4F) continue;
       const auto exact = find(row, "exact"), balanced = find(row, "balanced");
       ASSERT_NE(exact, rows.end());
       ASSERT_NE(balanced, rows.end());

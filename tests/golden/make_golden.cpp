@@ -3,10 +3,12 @@
 
 #include "container/lobe_codes.h"
 #include "encode/bins.h"
+#include "encode/candidate.h"
 #include "encode/distortion.h"
 #include "encode/error_model.h"
 #include "encode/layers.h"
 #include "encode/quantiser.h"
+#include "support/slice_measurement.h"
 #include "support/small_measurement.h"
 
 #include <algorithm>
@@ -119,6 +121,13 @@ std::vector<NamedContent> make_contents() {
     Content c = frame(m, true);
     add_restart(c, m, 120, 60, 84);
     all.push_back({"spectral-restart", std::move(c)});
+  }
+  {
+    const Measurement m = test::slice_measurement({4, 8, 24, 16, 0.4});
+    Content c = frame(m, false);
+    c.lobes = container::quantise_lobes({3, {{LobeKind::ggx, 0.4, 1, {0.6, 0.65, 0.7}}}});
+    const auto candidate = encode::Candidate::in_slices(m, c, c.residual.basis, {8, 4, 160}, encode::effort_step(0), {});
+    all.push_back({"rgb-slices", candidate.value().encode(112, 0.05, 3).content});
   }
   return all;
 }

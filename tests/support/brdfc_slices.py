@@ -215,7 +215,7 @@ class ResampledGrid:
         if not 0 < node[axis] < self.size[axis] - 1:
             return here
         low, high = (self.adjusted((*node[:axis], node[axis] + step, *node[axis + 1:]), axes - 1) for step in (-1, 1))
-        return [b - min(max((a - 2 * b + c) / 12, -b / 4), b / 4) for a, b, c in zip(low, here, high)]
+        return [b - min(max((a - 2 * b + c) / 12, -b / 20), b / 20) for a, b, c in zip(low, here, high)]
 
     def ratio(self, coordinates):
         """R between the nodes, at (u_h, u_d, u_p)."""

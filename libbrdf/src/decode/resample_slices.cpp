@@ -31,7 +31,8 @@ Angle node_angle(int i, int n, double kappa) noexcept {
 }
 
 /// Lines between nodes on a curve lie to one side of it. Moved by a twelfth of the second difference they fit it best in the
-/// least-squares sense. Along the middle axis of [outer][n][inner]; ends stay, and no node moves by more than a quarter.
+/// least-squares sense. Along the middle axis of [outer][n][inner]; ends stay, and no node moves by more than
+/// a twentieth: where it would have to, the nodes do not resolve the curve.
 std::vector<float> least_squares_nodes(const std::vector<float>& nodes, std::size_t outer, std::size_t n, std::size_t inner) {
   std::vector<float> out = nodes;
   for (std::size_t a = 0; a < outer; ++a)
@@ -39,7 +40,7 @@ std::vector<float> least_squares_nodes(const std::vector<float>& nodes, std::siz
       for (std::size_t k = 0; k < inner; ++k) {
         const std::size_t at = (a * n + i) * inner + k;
         const float bend = nodes[at - inner] - 2 * nodes[at] + nodes[at + inner];
-        out[at] = nodes[at] - std::clamp(bend / 12, -0.25f * nodes[at], 0.25f * nodes[at]);
+        out[at] = nodes[at] - std::clamp(bend / 12, -0.05f * nodes[at], 0.05f * nodes[at]);
       }
   return out;
 }
