@@ -7,6 +7,7 @@
 #include <cmath>
 #include <numbers>
 #include <span>
+#include <vector>
 
 namespace brdf::cli {
 namespace {
@@ -43,18 +44,25 @@ ErrorReport score_without(const Comparison& comparison, const ErrorBand& band, c
     candidate(wi, wo, out);
     if (band.axis == "none") return;
     const std::size_t channels = out.size() / wi.size();
-    std::vector<float> perfect(out.size());
-    reference(wi, wo, perfect);
-    for (std::size_t i = 0; i < wi.size(); ++i) {
-      if (band.axis == "channel") {
-        const std::size_t at = i * channels + static_cast<std::size_t>(band.from);
-        out[at] = perfect[at];
-        continue;
-      }
-      const double a = angle(band.axis, wi[i], wo[i]);
-      if (a >= band.from && a < band.to)
-        std::copy_n(perfect.begin() + static_cast<std::ptrdiff_t>(i * channels), channels, out.begin() + static_cast<std::ptrdiff_t>(i * channels));
+    if (band.axis == "channel") {
+      std::vector<float> perfect(out.size());
+      reference(wi, wo, perfect);
+      for (std::size_t at = static_cast<std::size_t>(band.from); at < out.size(); at += channels) out[at] = perfect[at];
+      return;
     }
+    std::vector<std::size_t> rows;  // within the band: only there is the reference, which may be slow, asked
+    std::vector<Vec3f> in, view;
+    for (std::size_t i = 0; i < wi.size(); ++i) {
+      const double a = angle(band.axis, wi[i], wo[i]);
+      if (!(a >= band.from && a < band.to)) continue;
+      rows.push_back(i);
+      in.push_back(wi[i]);
+      view.push_back(wo[i]);
+    }
+    if (rows.empty()) return;
+    std::vector<float> perfect(rows.size() * channels);
+    reference(in, view, perfect);
+    for (std::size_t k = 0; k < rows.size(); ++k) std::copy_n(perfect.data() + k * channels, channels, out.data() + rows[k] * channels);
   });
 }
 

@@ -2,6 +2,7 @@
 #include "container/validate_content.h"
 
 #include "container/slice_frame_codes.h"
+#include "residual/reconstruct.h"
 
 #include <brdf/error.h>
 
@@ -32,7 +33,7 @@ void validate_residual(const residual::ResidualCode& code, const Component& comp
   const residual::BasisCodes& b = code.basis;
   require(code.channels == component.channels.count && code.reciprocal == component.reciprocal,
           "residual and component differ in channels or reciprocity");
-  require(b.kappa_h < 32 && b.kappa_d < 16 && b.window_h < 16 && b.window_d < 16 && b.shape < residual::order_shape_count && b.table < 4 &&
+  require(b.kappa_h < 32 && b.kappa_d < 16 && b.window_h < 16 && b.window_d < 16 && b.shape < residual::order_shape_count && b.table < residual::balanced_grid_count &&
               b.epsilon <= residual::largest_epsilon_code, "a basis code is out of range");
   const char* why = "";
   if (!code.slices.empty() && !is_valid(code.slices, why)) refuse(std::string("slice frame: ") + why);

@@ -18,11 +18,10 @@ namespace {
 /// What prepare() needs to build the tables of any level.
 struct Source {
   residual::Coefficients coefficients;
-  LobeSet lobes;
   DecodeLimits limits;
 };
 
-residual::ResidualGrid grid_for(const Source& source, EvalLevel level) {
+residual::ResidualGrid grid_for(const Source& source, const LobeSet& lobes, EvalLevel level) {
   if (level == EvalLevel::fast || source.coefficients.order.empty()) return {};
   const residual::GridSize& size =
       level == EvalLevel::exact ? residual::exact_grid : residual::balanced_grids[source.coefficients.basis.table];
@@ -31,7 +30,7 @@ residual::ResidualGrid grid_for(const Source& source, EvalLevel level) {
     throw Error(ErrorCode::limit_exceeded, "the " + std::string(to_string(level)) + " table needs " + std::to_string(bytes) +
                                                " bytes, the limit is " + std::to_string(source.limits.max_table_bytes));
   return source.coefficients.slices.empty() ? residual::reconstruct(source.coefficients, size)
-                                            : decode::resample_slices(source.coefficients, source.lobes, size);
+                                            : decode::resample_slices(source.coefficients, lobes, size);
 }
 
 }  // namespace
@@ -54,9 +53,9 @@ Material Material::decode(std::span<const std::byte> bytes, const DecodeOptions&
   auto source = std::make_shared<Source>();
   source->coefficients = residual::dequantise(content.residual, content.component.transform, content.residual.layers.size());
   source->coefficients.channels = info.channels.count;
-  source->lobes = content.lobes;
   source->limits = options.limits;
-  auto impl = eval::make_impl(std::move(info), std::move(content.lobes), grid_for(*source, options.level), options.level);
+  residual::ResidualGrid grid = grid_for(*source, content.lobes, options.level);
+  auto impl = eval::make_impl(std::move(info), std::move(content.lobes), std::move(grid), options.level);
   impl->source = std::move(source);
   return Material(std::move(impl));
 }
@@ -68,7 +67,7 @@ std::vector<std::uint64_t> refinement_boundaries(std::span<const std::byte> byte
 Material Material::prepare(EvalLevel level) const {
   if (level == this->level()) return *this;
   const auto* source = static_cast<const Source*>(impl_->source.get());
-  auto impl = eval::make_impl(impl_->info, impl_->lobes, source != nullptr ? grid_for(*source, level) : residual::ResidualGrid{}, level);
+  auto impl = eval::make_impl(impl_->info, impl_->lobes, source != nullptr ? grid_for(*source, impl_->lobes, level) : residual::ResidualGrid{}, level);
   impl->source = impl_->source;
   return Material(std::move(impl));
 }

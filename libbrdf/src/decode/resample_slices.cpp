@@ -68,6 +68,8 @@ residual::ResidualGrid resample_slices(const residual::Coefficients& c, const Lo
   std::vector<float> ratio(grid.ratio.size() - 8);
   std::vector<float> f(channels), l(channels);
   std::vector<float> line(static_cast<std::size_t>(size.n_d) * channels);  // log ratio along theta_d
+  std::vector<Angle> differences;
+  for (int d = 0; d < size.n_d; ++d) differences.push_back(node_angle(d, size.n_d, basis.kappa_d));
   for (int h = 0; h < size.n_h; ++h) {
     const Angle half = node_angle(h, size.n_h, basis.kappa_h);
     for (int p = 0; p < size.n_p; ++p) {
@@ -75,7 +77,7 @@ residual::ResidualGrid resample_slices(const residual::Coefficients& c, const Lo
       const double sin_phi = std::sqrt(std::max(1 - cos_phi * cos_phi, 0.0));
       int above = 0;  // nodes above the horizon; they come first
       for (; above < size.n_d; ++above) {
-        const Angle difference = node_angle(above, size.n_d, basis.kappa_d);
+        const Angle& difference = differences[static_cast<std::size_t>(above)];
         const double x = difference.sine * cos_phi, y = difference.sine * sin_phi;
         const Vec3d wi{half.cosine * x + half.sine * difference.cosine, y, half.cosine * difference.cosine - half.sine * x};
         const Vec3d wo{half.sine * difference.cosine - half.cosine * x, -y, half.cosine * difference.cosine + half.sine * x};

@@ -3,7 +3,6 @@
 
 #include "encode/slice_samples.h"
 #include "fit/parallel_jobs.h"
-#include "residual/reconstruct.h"
 
 #include <algorithm>
 #include <cmath>
@@ -48,7 +47,8 @@ std::vector<residual::BasisCodes> table_variants(const residual::BasisCodes& bas
   return out;
 }
 
-void choose_table(Encoded& e, int count, const Verification& verification) {
+/// Gives `e` the best table and returns its merit.
+double choose_table(Encoded& e, int count, const Verification& verification) {
   double best = -1e9;
   Encoded chosen;
   for (const residual::BasisCodes& basis : table_variants(e.content.residual.basis, count)) {
@@ -62,6 +62,7 @@ void choose_table(Encoded& e, int count, const Verification& verification) {
     }
   }
   e = std::move(chosen);
+  return best;
 }
 
 }  // namespace
@@ -107,8 +108,7 @@ Encoded encode_to_size(const SearchSpace& space, std::uint64_t bytes, const std:
   double merit_so_far = best != nullptr ? measured_merit(*best, verification) : -1e9;
   for (std::size_t i = bases; i < count; ++i) {
     if (tried[i].bytes.empty() || tried[i].content.residual.empty()) continue;
-    choose_table(tried[i], space.effort.table_variants, verification);
-    const double m = measured_merit(tried[i], verification);
+    const double m = choose_table(tried[i], space.effort.table_variants, verification);
     if (m <= merit_so_far) continue;
     merit_so_far = m;
     best = &tried[i];

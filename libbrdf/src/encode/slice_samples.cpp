@@ -16,12 +16,6 @@ constexpr double epsilon_share = 0.04;  // of the median: what lies far below it
 constexpr double largest_log2_ndf = 29;
 constexpr double nothing_visible = 1e-9;       // density of a row
 
-bool all_rows_equal(const std::vector<float>& table, std::size_t width) {
-  for (std::size_t k = width; k < table.size(); ++k)
-    if (table[k] != table[k - width]) return false;
-  return true;
-}
-
 double median_of_positive(std::vector<float> values) {
   std::erase_if(values, [](float v) { return !(v > 0); });
   if (values.empty()) return 1;
@@ -36,7 +30,7 @@ std::optional<residual::SliceFrame> slice_frame(const Measurement& m, int ndf_st
   const auto* t = std::get_if<VisibleNormalTable>(&m.table);
   if (t == nullptr || !t->jacobian || t->theta_i.size() < 2 || t->theta_i.size() > static_cast<std::size_t>(residual::max_m)) return {};
   if (t->width > residual::max_k || t->height > 2 * residual::max_l || t->ndf_width > 255 || t->vndf_height > 255 || t->vndf_height < 4) return {};
-  if (!all_rows_equal(t->ndf, static_cast<std::size_t>(t->ndf_width))) return {};
+  if (!ingest::rows_are_equal(t->ndf, static_cast<std::size_t>(t->ndf_width))) return {};
   residual::SliceFrame f;
   for (const float theta : t->theta_i)
     f.theta_i.push_back(static_cast<std::uint16_t>(std::clamp(std::lround(static_cast<double>(theta) * 2 / std::numbers::pi * 65535), 0L, 65535L)));
@@ -72,19 +66,18 @@ SliceSamples sample_slices(const Measurement& m, const residual::SliceFrame& fra
     for (std::size_t j = 0; j < s.half_height; ++j)
       for (std::size_t i = 0; i < s.width; ++i) {
         const double v = static_cast<double>(j) / static_cast<double>(frame.height - 1);
+        double scale = 0.5;
         if (map.row_density(slice, v) < nothing_visible) {  // no angle leads here, yet interpolation does
           const float* here = table.values.data() + ((slice * frame.height + j) * s.width + i) * s.channels;
           const float* there = table.values.data() + ((slice * frame.height + (frame.height - 1U - j)) * s.width + i) * s.channels;
-          for (std::size_t c = 0; c < s.channels; ++c, ++at) {
-            s.value[at] = std::max(0.5 * (static_cast<double>(here[c]) + static_cast<double>(there[c])), 0.0);
-            s.y[at] = std::log(s.value[at] + epsilon);
-          }
-          continue;
+          std::copy_n(here, s.channels, f.begin());
+          std::copy_n(there, s.channels, mirrored.begin());
+        } else {
+          const slices::SliceAngles a = map.angles(slice, static_cast<double>(i) / static_cast<double>(s.width - 1), v);
+          lookup.reflected(a.theta_i, {a.u_h, a.v_h}, f);
+          lookup.reflected(a.theta_i, {a.u_h, 1 - a.v_h}, mirrored);
+          scale /= std::max(map.jacobian(a), 1e-30);
         }
-        const slices::SliceAngles a = map.angles(slice, static_cast<double>(i) / static_cast<double>(s.width - 1), v);
-        lookup.reflected(a.theta_i, {a.u_h, a.v_h}, f);
-        lookup.reflected(a.theta_i, {a.u_h, 1 - a.v_h}, mirrored);
-        const double scale = 0.5 / std::max(map.jacobian(a), 1e-30);
         for (std::size_t c = 0; c < s.channels; ++c, ++at) {
           s.value[at] = std::max(scale * (f[c] + mirrored[c]), 0.0);
           s.y[at] = std::log(s.value[at] + epsilon);

@@ -39,13 +39,6 @@ double interpolate(const std::vector<float>& table, int height, int width, Squar
          y.fraction * ((1 - x.fraction) * double{upper[0]} + x.fraction * double{upper[1]});
 }
 
-bool rows_are_equal(const std::vector<float>& table, std::size_t width) {
-  for (std::size_t k = width; k < table.size(); ++k) {
-    if (table[k] != table[k - width]) return false;
-  }
-  return true;
-}
-
 void check_size(const char* field, std::size_t found, std::size_t slices, int height, int width, std::size_t channels) {
   const std::size_t expected =
       height < 2 || width < 2 ? 0
@@ -71,6 +64,13 @@ const VisibleNormalTable& checked(const VisibleNormalTable& t, int channels) {
 }
 
 }  // namespace
+
+bool rows_are_equal(const std::vector<float>& table, std::size_t width) {
+  for (std::size_t k = width; k < table.size(); ++k) {
+    if (table[k] != table[k - width]) return false;
+  }
+  return true;
+}
 
 VisibleNormalLookup::VisibleNormalLookup(const VisibleNormalTable& table, int channels)
     : table_(checked(table, channels)),

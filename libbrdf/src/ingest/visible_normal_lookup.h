@@ -10,6 +10,9 @@
 
 namespace brdf::ingest {
 
+/// Whether a table that runs along elevation in its rows says the same for every azimuth.
+bool rows_are_equal(const std::vector<float>& table, std::size_t width);
+
 /// Interpolated value of an RGL table (Dupuy and Jakob 2018, section 5). Keeps a reference to the table.
 class VisibleNormalLookup {
  public:
