@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 // Nanoseconds per pair of eval, pdf and sample: single calls, and batches on every instruction set of the machine.
-#include "eval/highway_targets.h"
+#include "base/highway_targets.h"
 #include "support/direction_batch.h"
 #include "support/synthetic_grid.h"
 

@@ -2,7 +2,7 @@
 // Runs code once on every instruction set that this machine has.
 #pragma once
 
-#include "eval/highway_targets.h"  // the targets of the library, not of the test
+#include "base/highway_targets.h"  // the targets of the library, not of the test
 
 #include <brdf/material.h>
 

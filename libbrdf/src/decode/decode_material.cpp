@@ -21,7 +21,7 @@ struct Source {
   DecodeLimits limits;
 };
 
-residual::ResidualGrid grid_for(const Source& source, const LobeSet& lobes, EvalLevel level) {
+eval::Residual residual_for(const Source& source, const LobeSet& lobes, EvalLevel level) {
   if (level == EvalLevel::fast || source.coefficients.order.empty()) return {};
   const residual::GridSize& size =
       level == EvalLevel::exact ? residual::exact_grid : residual::balanced_grids[source.coefficients.basis.table];
@@ -29,8 +29,9 @@ residual::ResidualGrid grid_for(const Source& source, const LobeSet& lobes, Eval
   if (bytes > source.limits.max_table_bytes)
     throw Error(ErrorCode::limit_exceeded, "the " + std::string(to_string(level)) + " table needs " + std::to_string(bytes) +
                                                " bytes, the limit is " + std::to_string(source.limits.max_table_bytes));
-  return source.coefficients.slices.empty() ? residual::reconstruct(source.coefficients, size)
-                                            : decode::resample_slices(source.coefficients, lobes, size);
+  if (source.coefficients.slices.empty()) return residual::reconstruct(source.coefficients, size);
+  if (level == EvalLevel::exact) return slices::SliceTable(source.coefficients);
+  return decode::resample_slices(source.coefficients, lobes, size);
 }
 
 }  // namespace
@@ -54,8 +55,8 @@ Material Material::decode(std::span<const std::byte> bytes, const DecodeOptions&
   source->coefficients = residual::dequantise(content.residual, content.component.transform, content.residual.layers.size());
   source->coefficients.channels = info.channels.count;
   source->limits = options.limits;
-  residual::ResidualGrid grid = grid_for(*source, content.lobes, options.level);
-  auto impl = eval::make_impl(std::move(info), std::move(content.lobes), std::move(grid), options.level);
+  eval::Residual residual = residual_for(*source, content.lobes, options.level);
+  auto impl = eval::make_impl(std::move(info), std::move(content.lobes), std::move(residual), options.level);
   impl->source = std::move(source);
   return Material(std::move(impl));
 }
@@ -67,7 +68,7 @@ std::vector<std::uint64_t> refinement_boundaries(std::span<const std::byte> byte
 Material Material::prepare(EvalLevel level) const {
   if (level == this->level()) return *this;
   const auto* source = static_cast<const Source*>(impl_->source.get());
-  auto impl = eval::make_impl(impl_->info, impl_->lobes, source != nullptr ? grid_for(*source, impl_->lobes, level) : residual::ResidualGrid{}, level);
+  auto impl = eval::make_impl(impl_->info, impl_->lobes, source != nullptr ? residual_for(*source, impl_->lobes, level) : eval::Residual{}, level);
   impl->source = impl_->source;
   return Material(std::move(impl));
 }

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "eval/highway_targets.h"
+#include "base/highway_targets.h"
 
 #undef HWY_TARGET_INCLUDE
 #define HWY_TARGET_INCLUDE "eval/batch_eval.cpp"
@@ -20,7 +20,7 @@ namespace brdf::eval::HWY_NAMESPACE {
 template <bool with_pdf>
 struct GivenPairs {
   const Tables& t;
-  const DirectionSpan &wi, &wo;
+  DirectionSpan wi, wo;
   float* pdf;
   HWY_INLINE V operator()(std::size_t i, std::size_t count, PairVectors& p) const {
     p = pair_vectors(load_directions(wi, i, count), load_directions(wo, i, count));

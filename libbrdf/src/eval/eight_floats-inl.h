@@ -1,5 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 // Eight floats along one row of a residual grid: a 256-bit vector where there is one, else a vector of the compiler.
+#include "residual/half_float.h"
+
 #include <cstddef>
 #include <cstdint>
 #include <cstring>
@@ -43,18 +45,22 @@ HWY_INLINE EightFloats with_ratio(const EightFloats& lobes, const EightFloats& r
   return {hn::Max(hn::MulSub(hn::Add(lobes.v, e), ratio.v, e), hn::Zero(Eight()))};
 }
 
-/// Halves moved to the place of floats: 2^-112 times their value.
-HWY_INLINE hn::Vec<Eight> shifted_halves(const std::uint16_t* p) {
-  const hn::FixedTag<std::uint32_t, 8> wide;
-  const auto bits = hn::PromoteTo(wide, hn::LoadU(hn::FixedTag<std::uint16_t, 8>(), p));
-  return hn::BitCast(Eight(), hn::ShiftLeft<13>(bits));
+/// What weights must hold so that a sum of weighted halves comes out right: conversion is an instruction here.
+inline constexpr float row_scale = 1.0f;
+
+HWY_INLINE hn::Vec<Eight> eight_halves(const std::uint16_t* p) {
+  const hn::FixedTag<std::uint16_t, 8> bits;
+  return hn::PromoteTo(Eight(), hn::BitCast(hn::FixedTag<hwy::float16_t, 8>(), hn::LoadU(bits, p)));
 }
 
-/// sum of weight[k] times the shifted halves at row[k]
-HWY_INLINE EightFloats weighted_rows(const std::uint16_t* const row[4], const float weight[4]) {
-  auto sum = hn::Mul(hn::Set(Eight(), weight[0]), shifted_halves(row[0]));
-  for (int k = 1; k < 4; ++k) sum = hn::MulAdd(hn::Set(Eight(), weight[k]), shifted_halves(row[k]), sum);
-  return {sum};
+/// Sum of weight[k stride] times the eight halves at row[k] + offset
+HWY_INLINE EightFloats weighted_rows(const std::uint16_t* const row[4], std::ptrdiff_t offset, const float* weight,
+                                     std::size_t stride) {
+  const Eight d;
+  auto sum = hn::Mul(hn::Set(d, weight[0]), eight_halves(row[0] + offset));
+  sum = hn::MulAdd(hn::Set(d, weight[stride]), eight_halves(row[1] + offset), sum);
+  sum = hn::MulAdd(hn::Set(d, weight[2 * stride]), eight_halves(row[2] + offset), sum);
+  return {hn::MulAdd(hn::Set(d, weight[3 * stride]), eight_halves(row[3] + offset), sum)};
 }
 
 /// out[c] = a[c] + fraction (a[c + 3] - a[c]) for c < 3; writes four floats.
@@ -94,15 +100,19 @@ HWY_INLINE EightFloats with_ratio(const EightFloats& lobes, const EightFloats& r
   return {f > 0.0f ? f : Float8{}};
 }
 
-HWY_INLINE EightFloats weighted_rows(const std::uint16_t* const row[4], const float weight[4]) {
+// Halves moved to the place of floats are 2^-112 times their value.
+inline constexpr float row_scale = residual::half_exponent_scale;
+
+HWY_INLINE EightFloats weighted_rows(const std::uint16_t* const row[4], std::ptrdiff_t offset, const float* weight,
+                                     std::size_t stride) {
   EightFloats sum = {};
-  for (int k = 0; k < 4; ++k) {
+  for (std::size_t k = 0; k < 4; ++k) {
     Half8 halves;
-    std::memcpy(&halves, row[k], sizeof halves);
+    std::memcpy(&halves, row[k] + offset, sizeof halves);
     const Bits8 bits = __builtin_convertvector(halves, Bits8) << 13;
     Float8 shifted;
     std::memcpy(&shifted, &bits, sizeof shifted);
-    sum.v += weight[k] * shifted;
+    sum.v += weight[k * stride] * shifted;
   }
   return sum;
 }

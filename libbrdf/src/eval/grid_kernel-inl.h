@@ -4,7 +4,6 @@
 // several element gathers would, and gathers are slow where Gather Data Sampling is mitigated.
 #include "eval/tables.h"
 #include "residual/grid_coordinates.h"
-#include "residual/half_float.h"
 
 #include "eval/lobe_kernel-inl.h"
 #include "eval/eight_floats-inl.h"
@@ -19,10 +18,6 @@
 HWY_BEFORE_NAMESPACE();
 namespace brdf::eval::HWY_NAMESPACE {
 
-/// Pairs whose rows are read together. Many enough that what is stored vector by vector and read pair by pair, and the
-/// other way round, has left the store buffer, which cannot forward a wide load from several narrow stores.
-inline constexpr std::size_t block_pairs = 64;
-
 /// For each pair: index of the lower corner node, weights of the four (h, d) rows (they hold the power of two that
 /// completes the decoding of halves), and the fraction along p.
 struct GridRows {
@@ -35,41 +30,40 @@ struct AxisPosition {
   V lower, fraction;
 };
 
-HWY_INLINE AxisPosition axis_position(V u, float scale, float last) {
-  const V x = hn::Mul(u, set(scale));
+HWY_INLINE AxisPosition axis_position(V x, float last) {
   const V lower = hn::Floor(hn::Min(x, set(last)));
   return {lower, hn::Min(hn::Sub(x, lower), set(1.0f))};
 }
 
-HWY_INLINE V warped(V t, float a, float kappa) {
-  constexpr float b = static_cast<float>(1 - residual::warp_share);
-  return hn::Mul(t, hn::Add(hn::Div(set(a), hn::Add(t, set(kappa))), set(b)));
+/// x on a warped axis
+HWY_INLINE V warped(V t, const GridParams::Axis& axis) {
+  return quotient(hn::Mul(t, hn::MulAdd(t, set(axis.square), set(axis.linear))), hn::Add(t, set(axis.kappa)));
 }
 
 /// Fills one vector of rows, from pair `at` of the block on.
 HWY_INLINE void grid_rows(const GridParams& g, const PairVectors& p, GridRows& rows, std::size_t at) {
   const Floats d;
   const V d2 = hn::MulAdd(p.d_z, p.d_z, p.d_xy2);
-  const V t_h = hn::Sqrt(hn::Div(p.s_xy2, hn::Mul(p.s, hn::Add(p.s, p.s_z))));
-  const V t_d = hn::Sqrt(hn::Div(d2, hn::Mul(p.norm, hn::Add(p.norm, p.s))));
+  const V t_h = root(quotient(p.s_xy2, hn::Mul(p.s, hn::Add(p.s, p.s_z))));
+  const V t_d = root(quotient(d2, hn::Mul(p.norm, hn::Add(p.norm, p.s))));
   const V along = hn::Mul(p.d_z, p.s), across2 = hn::MulAdd(p.cross, p.cross, set(min_denominator));
-  const V r = hn::Sqrt(hn::MulAdd(along, along, across2));
-  const V q = hn::Sqrt(hn::Div(across2, hn::Mul(r, hn::Add(r, along))));
+  const V r = root(hn::MulAdd(along, along, across2));
+  const V q = root(quotient(across2, hn::Mul(r, hn::Add(r, along))));
   V u_p = q;
   if (!g.reciprocal) {
     const V half = hn::Mul(q, set(0.5f));
     u_p = hn::IfThenElse(hn::Ge(p.cos_o, p.cos_i), half, hn::Sub(set(1.0f), half));
   }
-  const AxisPosition at_h = axis_position(warped(t_h, g.warp_a_h, g.kappa_h), g.scale_h, g.last_h);
-  const AxisPosition at_d = axis_position(warped(t_d, g.warp_a_d, g.kappa_d), g.scale_d, g.last_d);
-  const AxisPosition at_p = axis_position(u_p, g.scale_p, g.last_p);
+  const AxisPosition at_h = axis_position(warped(t_h, g.axis_h), g.last_h);
+  const AxisPosition at_d = axis_position(warped(t_d, g.axis_d), g.last_d);
+  const AxisPosition at_p = axis_position(hn::Mul(u_p, set(g.scale_p)), g.last_p);
 
   // masked, because a pair that is not valid may be no number and must not lead out of the table
   const V node = hn::IfThenElseZero(
       p.valid, hn::MulAdd(hn::MulAdd(at_h.lower, set(g.nodes_d), at_d.lower), set(g.nodes_p), at_p.lower));
   hn::Store(hn::ConvertTo(Ints(), node), Ints(), rows.node + at);
   hn::Store(at_p.fraction, d, rows.fraction_p + at);
-  const V scale = set(residual::half_exponent_scale);
+  const V scale = set(row_scale);
   const V h1 = hn::Mul(at_h.fraction, scale), h0 = hn::Sub(scale, h1);
   const V w1 = hn::Mul(h0, at_d.fraction), w3 = hn::Mul(h1, at_d.fraction);
   hn::Store(hn::Sub(h0, w1), d, rows.weight[0] + at);
@@ -78,12 +72,16 @@ HWY_INLINE void grid_rows(const GridParams& g, const PairVectors& p, GridRows& r
   hn::Store(w3, d, rows.weight[3] + at);
 }
 
-/// The four (h, d) rows of pair `i`, from half `first` of the node on.
-HWY_INLINE EightFloats rows_of_pair(const GridParams& g, const GridRows& rows, std::size_t i, std::ptrdiff_t first) {
-  const std::uint16_t* corner = g.ratio + static_cast<std::ptrdiff_t>(rows.node[i]) * g.node_halves + first;
-  const std::uint16_t* const row[4] = {corner, corner + g.step_d, corner + g.step_h, corner + g.step_h + g.step_d};
-  const float weight[4] = {rows.weight[0][i], rows.weight[1][i], rows.weight[2][i], rows.weight[3][i]};
-  return weighted_rows(row, weight);
+/// Where the four (h, d) rows of node 0 start.
+struct CornerRows {
+  const std::uint16_t* row[4];
+  HWY_INLINE explicit CornerRows(const GridParams& g)
+      : row{g.ratio, g.ratio + g.step_d, g.ratio + g.step_h, g.ratio + g.step_h + g.step_d} {}
+};
+
+/// The rows of pair `i`, from a half of its node on: offset = node_halves node + first.
+HWY_INLINE EightFloats rows_of_pair(const CornerRows& corner, const GridRows& rows, std::size_t i, std::ptrdiff_t offset) {
+  return weighted_rows(corner.row, offset, rows.weight[0] + i, block_pairs);
 }
 
 /// max(0, (lobes + epsilon) ratio - epsilon)

@@ -22,6 +22,12 @@ void require(bool ok, ErrorCode code, const char* field, const std::string& foun
   throw Error(code, "Residual grid: " + std::string(field) + " is " + found + ", allowed is " + allowed + ".");
 }
 
+/// u = t (share (1 + kappa) / (t + kappa) + 1 - share), times n - 1
+GridParams::Axis warped_axis(int n, float kappa) {
+  const double scale = n - 1, k = kappa, share = residual::warp_share;
+  return {kappa, static_cast<float>(scale * (share * (1 + k) + (1 - share) * k)), static_cast<float>(scale * (1 - share))};
+}
+
 }  // namespace
 
 GridParams::GridParams(const residual::ResidualGrid& grid, int channels) {
@@ -39,14 +45,18 @@ GridParams::GridParams(const residual::ResidualGrid& grid, int channels) {
   const std::uint64_t halves = nodes * static_cast<std::uint64_t>(channels);
   require(grid.ratio.size() >= halves + padding_halves, bad, "the number of halves", std::to_string(grid.ratio.size()),
           "at least " + std::to_string(halves + padding_halves));
-  const auto end = grid.ratio.begin() + static_cast<std::ptrdiff_t>(halves);
-  const auto wrong = std::find_if_not(grid.ratio.begin(), end, residual::is_positive_normal_half);
-  require(wrong == end, bad, "a ratio", "not a positive normal half", "2^-14 to 65504");
+  // unsigned, so that halves below the range come out on top; four at a time, as this would else be a fifth of a decode
+  const auto beyond = [&grid](std::uint64_t k) { return static_cast<std::uint16_t>(grid.ratio[k] - residual::half_min_normal); };
+  std::array<std::uint16_t, 4> largest{};
+  std::uint64_t k = 0;
+  for (; k + 4 <= halves; k += 4)
+    for (std::size_t lane = 0; lane < 4; ++lane) largest[lane] = std::max(largest[lane], beyond(k + lane));
+  for (; k < halves; ++k) largest[0] = std::max(largest[0], beyond(k));
+  require(*std::max_element(largest.begin(), largest.end()) <= residual::half_max - residual::half_min_normal, bad, "a ratio",
+          "not a positive normal half", "2^-14 to 65504");
 
   ratio = grid.ratio.data();
   const auto last = [](int n) { return static_cast<float>(std::max(n - 2, 0)); };
-  scale_h = static_cast<float>(grid.n_h - 1);
-  scale_d = static_cast<float>(grid.n_d - 1);
   scale_p = static_cast<float>(grid.n_p - 1);
   last_h = last(grid.n_h);
   last_d = last(grid.n_d);
@@ -57,12 +67,21 @@ GridParams::GridParams(const residual::ResidualGrid& grid, int channels) {
   step_p = grid.n_p > 1 ? node_halves : 0;
   step_d = grid.n_d > 1 ? node_halves * grid.n_p : 0;
   step_h = grid.n_h > 1 ? node_halves * grid.n_p * grid.n_d : 0;
-  kappa_h = grid.kappa_h;
-  kappa_d = grid.kappa_d;
-  warp_a_h = static_cast<float>(residual::warp_share * (1 + static_cast<double>(kappa_h)));
-  warp_a_d = static_cast<float>(residual::warp_share * (1 + static_cast<double>(kappa_d)));
+  axis_h = warped_axis(grid.n_h, grid.kappa_h);
+  axis_d = warped_axis(grid.n_d, grid.kappa_d);
   epsilon = grid.epsilon;
   reciprocal = grid.reciprocal;
+
+  lanes.kappa = {axis_h.kappa, axis_d.kappa, 1, 1};
+  lanes.last = {last_h, last_d, last_p, 0};
+  // reciprocal: u_p = q for either sign; else q / 2 where wo is the higher one, and 1 - q / 2 where it is not.
+  // With kappa 1, t (a + a t) / (t + 1) = a t
+  const float rising = reciprocal ? scale_p : 0.5f * scale_p, falling = reciprocal ? scale_p : -0.5f * scale_p;
+  lanes.side[1] = {{axis_h.linear, axis_d.linear, rising, 0}, {axis_h.square, axis_d.square, rising, 0}, {}};
+  lanes.side[0] = {{axis_h.linear, axis_d.linear, falling, 0},
+                   {axis_h.square, axis_d.square, falling, 0},
+                   {0, 0, reciprocal ? 0.0f : scale_p, 0}};
+  lanes.halves = {3 * grid.n_d * grid.n_p, 3 * grid.n_p, 3, 0};
 }
 
 }  // namespace brdf::eval

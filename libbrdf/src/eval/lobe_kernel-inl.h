@@ -18,11 +18,17 @@
 HWY_BEFORE_NAMESPACE();
 namespace brdf::eval::HWY_NAMESPACE {
 
+/// Pairs that go through the passes of a kernel together. Many enough that what is stored vector by vector and read pair
+/// by pair, and the other way round, has left the store buffer, which cannot forward a wide load from several narrow
+/// stores; few enough to stay in the first cache.
+inline constexpr std::size_t block_pairs = 64;
+
 struct Directions {
   V x, y, z;
 };
 
 struct PairVectors {
+  Directions wi, wo;
   V cos_i, cos_o, low, high;
   V s_xy2, d_xy2, s_z, s_z2, d_z, cross;
   V s2, s, norm, inv_norm;
@@ -31,6 +37,8 @@ struct PairVectors {
 
 HWY_INLINE PairVectors pair_vectors(const Directions& wi, const Directions& wo) {
   PairVectors p;
+  p.wi = wi;
+  p.wo = wo;
   const V sx = hn::Add(wi.x, wo.x), sy = hn::Add(wi.y, wo.y), dx = hn::Sub(wi.x, wo.x), dy = hn::Sub(wi.y, wo.y);
   p.cos_i = wi.z;
   p.cos_o = wo.z;
@@ -68,12 +76,12 @@ HWY_INLINE V ndf_numerator(V in_plane, V s_z2) {
 /// numerator / (denominator^2 divisor) of one lobe.
 HWY_INLINE V guarded_quotient(const GgxLobe& g, V numerator, V in_plane, V s_z2, V divisor) {
   const V den = hn::MulAdd(in_plane, set(g.inv_alpha), hn::Mul(s_z2, set(g.alpha)));
-  return hn::Div(numerator, hn::Max(hn::Mul(hn::Mul(den, den), divisor), set(min_denominator)));
+  return quotient(numerator, hn::Max(hn::Mul(hn::Mul(den, den), divisor), set(min_denominator)));
 }
 
 /// sqrt(alpha^2 + (1 - alpha^2) cos^2)
 HWY_INLINE V slope_length(const GgxLobe& g, V cos2) {
-  return hn::Sqrt(hn::MulAdd(set(g.one_minus_alpha2), cos2, set(g.alpha2)));
+  return root(hn::MulAdd(set(g.one_minus_alpha2), cos2, set(g.alpha2)));
 }
 
 /// `each(k, plain)` for the lobes from `first` to `last`, which share a half vector; adds to `grazing`.

@@ -36,6 +36,26 @@ void check_lobe(std::size_t i, const Lobe& lobe, int channels) {
   check_range(i, "f90", lobe.f90, 0, max_reflectance);
 }
 
+std::vector<FourLobes> in_fours(const std::vector<GgxLobe>& ggx) {
+  std::vector<FourLobes> fours((ggx.size() + 3) / 4);
+  for (std::size_t k = 0; k < 4 * fours.size(); ++k) {
+    GgxLobe g;
+    if (k < ggx.size())
+      g = ggx[k];
+    else
+      g.f90 = 0;
+    FourLobes& four = fours[k / 4];
+    const std::size_t lane = k % 4;
+    four.alpha[lane] = g.alpha;
+    four.inv_alpha[lane] = g.inv_alpha;
+    four.alpha2[lane] = g.alpha2;
+    four.one_minus_alpha2[lane] = g.one_minus_alpha2;
+    four.f90[lane] = g.f90;
+    four.retro[lane] = g.retro ? 1.0f : 0.0f;
+  }
+  return fours;
+}
+
 }  // namespace
 
 LobeParams::LobeParams(const LobeSet& set) : channels(set.channels) {
@@ -54,7 +74,7 @@ LobeParams::LobeParams(const LobeSet& set) : channels(set.channels) {
   const auto n = static_cast<std::size_t>(channels);
   padded_channels = (n + 7) / 8 * 8;
   std::vector<double> diffuse(n, 0.0);
-  f0.assign(count * padded_channels, 0.0f);
+  f0.assign((count + 3) / 4 * 4 * padded_channels, 0.0f);
   const auto add_ggx = [this, n](const Lobe& lobe) {
     const double a = lobe.alpha;
     GgxLobe g;
@@ -79,6 +99,7 @@ LobeParams::LobeParams(const LobeSet& set) : channels(set.channels) {
     if (lobe.kind == LobeKind::retro_ggx) add_ggx(lobe);
   for (double c : diffuse) lambert.push_back(static_cast<float>(c));
   lambert.resize(padded_channels, 0.0f);
+  fours = in_fours(ggx);
 }
 
 }  // namespace brdf::eval

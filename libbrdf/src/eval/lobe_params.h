@@ -4,6 +4,7 @@
 
 #include <brdf/lobes.h>
 
+#include <array>
 #include <cstddef>
 #include <vector>
 
@@ -24,13 +25,19 @@ struct alignas(64) GgxLobe {
   const float* f0 = nullptr;  ///< one value per channel, padded with 0 to padded_channels
 };
 
+/// The same of four lobes, lane by lane; lobes that fill up the last four have no colour.
+struct alignas(64) FourLobes {
+  std::array<float, 4> alpha, inv_alpha, alpha2, one_minus_alpha2, f90, retro;  ///< retro: 1 or 0
+};
+
 struct LobeParams {
   int channels = 0;
   std::vector<GgxLobe> ggx;         ///< reflection lobes first, then retro lobes
+  std::vector<FourLobes> fours;     ///< the same again, for evaluation of one pair
   std::size_t forward_count = 0;    ///< number of reflection lobes
   std::size_t padded_channels = 0;  ///< the next multiple of 8, so that kernels may read whole vectors of colours
   std::vector<float> lambert;  ///< sum of rho / pi, one per padded channel
-  std::vector<float> f0;       ///< of all GGX lobes, lobe by lobe
+  std::vector<float> f0;       ///< of all GGX lobes, lobe by lobe; 0 for those that fill up the last four
 
   LobeParams() = default;
   /// Throws Error(invalid_argument) or Error(limit_exceeded) for a set that cannot be evaluated.

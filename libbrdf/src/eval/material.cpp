@@ -2,6 +2,7 @@
 #include "eval/batch_eval.h"
 #include "eval/material_impl.h"
 #include "eval/scalar_eval.h"
+#include "eval/single_eval.h"
 
 #include <utility>
 
@@ -18,15 +19,16 @@ const char* to_string(EvalLevel level) noexcept {
 
 namespace eval {
 
-std::shared_ptr<Material::Impl> make_impl(MaterialInfo info, LobeSet lobes, residual::ResidualGrid grid, EvalLevel level) {
+std::shared_ptr<Material::Impl> make_impl(MaterialInfo info, LobeSet lobes, Residual residual, EvalLevel level) {
   auto impl = std::make_shared<Material::Impl>();
   impl->info = std::move(info);
   impl->lobes = std::move(lobes);
-  impl->grid = std::move(grid);
+  impl->residual = std::move(residual);
   impl->level = level;
   impl->tables.lobes = LobeParams(impl->lobes);
-  impl->tables.grid = GridParams(impl->grid, impl->lobes.channels);
-  impl->tables.mixture = Mixture(impl->tables.lobes, impl->tables.grid);
+  impl->tables.grid = GridParams(impl->residual.grid, impl->lobes.channels);
+  if (impl->residual.slices) impl->tables.slices = impl->residual.slices->view();
+  impl->tables.mixture = Mixture(impl->tables);
   return impl;
 }
 
@@ -50,17 +52,17 @@ std::uint64_t Material::resident_bytes() const noexcept {
   return sizeof(eval::Tables) + t.lobes.ggx.size() * sizeof(eval::GgxLobe) +
          t.mixture.lobe.size() * sizeof(eval::Mixture::Curve) +
          (t.lobes.lambert.size() + t.lobes.f0.size()) * sizeof(float) +
-         impl_->grid.ratio.size() * sizeof(std::uint16_t);
+         impl_->residual.grid.ratio.size() * sizeof(std::uint16_t) + (impl_->residual.slices ? impl_->residual.slices->bytes() : 0);
 }
 
 void Material::eval(const Vec3f& wi, const Vec3f& wo, std::span<float> f) const noexcept {
-  eval::eval_scalar(impl_->tables.lobes, impl_->tables.grid, wi, wo, f);
+  eval::eval_single(impl_->tables, wi, wo, f);
 }
 
 float Material::pdf(const Vec3f& wi, const Vec3f& wo) const noexcept { return eval::pdf_scalar(impl_->tables, wi, wo); }
 
 float Material::eval_pdf(const Vec3f& wi, const Vec3f& wo, std::span<float> f) const noexcept {
-  return eval::eval_pdf_scalar(impl_->tables, wi, wo, f);
+  return eval::eval_pdf_single(impl_->tables, wi, wo, f);
 }
 
 void Material::eval(DirectionSpan wi, DirectionSpan wo, PlanarSpan f) const noexcept {

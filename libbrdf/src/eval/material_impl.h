@@ -8,15 +8,30 @@
 #include <brdf/material.h>
 
 #include <memory>
+#include <optional>
+#include <utility>
 
 namespace brdf {
 
-/// Built by eval::make_impl and not changed once a handle holds it; `tables` points into `grid`, so it is neither copied
+namespace eval {
+
+/// What a material has beside its lobes: at most one of them.
+struct Residual {
+  Residual() = default;
+  Residual(residual::ResidualGrid table) : grid(std::move(table)) {}
+  Residual(slices::SliceTable table) : slices(std::move(table)) {}
+  residual::ResidualGrid grid;               ///< over the lobes
+  std::optional<slices::SliceTable> slices;  ///< f itself, lobes included
+};
+
+}  // namespace eval
+
+/// Built by eval::make_impl and not changed once a handle holds it; `tables` points into `residual`, so it is neither copied
 /// nor moved.
 struct Material::Impl {
   MaterialInfo info;
   LobeSet lobes;
-  residual::ResidualGrid grid;
+  eval::Residual residual;
   EvalLevel level = EvalLevel::fast;
   eval::Tables tables;
   std::shared_ptr<const void> source;  ///< the decoder's coefficients, from which prepare() builds other levels
@@ -30,7 +45,7 @@ namespace eval {
 
 /// Validates and precomputes. Throws Error(invalid_argument) or Error(limit_exceeded). `source` is left empty for the
 /// caller to set before the result becomes const.
-std::shared_ptr<Material::Impl> make_impl(MaterialInfo info, LobeSet lobes, residual::ResidualGrid grid, EvalLevel level);
+std::shared_ptr<Material::Impl> make_impl(MaterialInfo info, LobeSet lobes, Residual residual, EvalLevel level);
 
 }  // namespace eval
 }  // namespace brdf

@@ -2,6 +2,7 @@
 #include "eval/mixture.h"
 
 #include "eval/scalar_eval.h"
+#include "eval/single_eval.h"
 #include "eval/warp.h"
 
 #include <algorithm>
@@ -39,19 +40,20 @@ double mean(std::span<const float> values) noexcept {
   return sum / static_cast<double>(values.size());
 }
 
-std::vector<Probe> probes_at(const LobeParams& lobes, const GridParams& grid, const Vec3f& wo, std::span<float> f) {
+std::vector<Probe> probes_at(const Tables& t, const Vec3f& wo, std::span<float> f) {
+  const LobeParams& lobes = t.lobes;
   const std::size_t n = lobes.ggx.size() + 1;
   std::vector<Probe> probes;
   probes.reserve(n * samples_each);
   for (std::size_t k = 0; k < n; ++k) {
     for (std::size_t j = 0; j < samples_each; ++j) {
-      const double t = 0.5 + static_cast<double>(j);
-      const auto u = static_cast<float>(t / samples_each), v = static_cast<float>(std::fmod(t * 0.61803398875, 1.0));
+      const double point = 0.5 + static_cast<double>(j);
+      const auto u = static_cast<float>(point / samples_each), v = static_cast<float>(std::fmod(point * 0.61803398875, 1.0));
       const Vec3f wi = k == 0 ? cosine_direction(u, v) : ggx_direction(lobes.ggx[k - 1], wo, u, v);
       if (!(wi.z > 0)) continue;
       Probe p{};
       component_densities(lobes, wi, wo, p.density);
-      eval_scalar(lobes, grid, wi, wo, f);
+      eval_single(t, wi, wo, f);
       const double q = mean(std::span(p.density).first(n)), value = mean(f) * static_cast<double>(wi.z);
       p.g = static_cast<float>(value / q * value);
       if (q > 0 && std::isfinite(p.g)) probes.push_back(p);
@@ -80,7 +82,8 @@ PerComponent moments(std::span<const Probe> probes, const PerComponent& w, std::
 /// Weights with the least second moment of f cos / pdf, relative to its own size at each node. At the optimum all M_k of
 /// a control point are equal, hence the fixed point b_k <- b_k sqrt(M_k). Integrals are sums over one set of
 /// low-discrepancy samples (Roberts 2018) that every component contributes to alike.
-Mixture::Mixture(const LobeParams& lobes, const GridParams& grid) {
+Mixture::Mixture(const Tables& t) {
+  const LobeParams& lobes = t.lobes;
   const std::size_t n = lobes.ggx.size() + 1;
   lobe.assign(n - 1, Curve{});
   if (n == 1) return;
@@ -91,9 +94,9 @@ Mixture::Mixture(const LobeParams& lobes, const GridParams& grid) {
     const float z = (static_cast<float>(i) + 0.5f) / nodes;
     basis[i] = bernstein_powers(z);
     for (std::size_t j = 0; j < controls; ++j) basis[i][j] *= binomials[j];
-    probes[i] = probes_at(lobes, grid, {std::sqrt(1 - z * z), 0.0f, z}, f);
+    probes[i] = probes_at(t, {std::sqrt(1 - z * z), 0.0f, z}, f);
   }
-  const double cosine_floor = static_cast<double>(grid.ratio ? floor_with_grid : floor_of_lobes);
+  const double cosine_floor = static_cast<double>(t.grid.ratio || t.slices.values ? floor_with_grid : floor_of_lobes);
   const double lobe_floor = static_cast<double>(floor_of_ggx) / static_cast<double>(n - 1);
   std::array<PerComponent, controls> control;
   for (PerComponent& c : control) c.fill(1.0 / static_cast<double>(n));

@@ -2,7 +2,6 @@
 // Weights of the sampling mixture: one cosine component and every GGX lobe, by the direction wo.
 #pragma once
 
-#include "eval/grid_params.h"
 #include "eval/lobe_params.h"
 
 #include <array>
@@ -10,6 +9,8 @@
 #include <vector>
 
 namespace brdf::eval {
+
+struct Tables;
 
 /// Component 0 is the cosine lobe and takes what the GGX lobes leave: its weight is 1 - sum of the others.
 ///
@@ -23,7 +24,8 @@ struct Mixture {
   std::vector<Curve> lobe;                    ///< one per GGX lobe
 
   Mixture() = default;
-  Mixture(const LobeParams& lobes, const GridParams& grid);
+  /// From lobes and residual of the tables; what `mixture` holds of them is not read.
+  explicit Mixture(const Tables& t);
 };
 
 /// (1 - x)^(5 - j) x^j: the Bernstein basis without its binomials.

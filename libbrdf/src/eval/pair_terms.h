@@ -33,12 +33,13 @@ struct PairTerms {
 inline PairTerms pair_terms(const Vec3f& wi, const Vec3f& wo) noexcept {
   PairTerms p;
   const float sx = wi.x + wo.x, sy = wi.y + wo.y, dx = wi.x - wo.x, dy = wi.y - wo.y;
-  p.low = std::max(std::min(wi.z, wo.z), min_cosine);
-  p.high = std::max(std::max(wi.z, wo.z), min_cosine);
+  const float cos_i = std::max(wi.z, min_cosine), cos_o = std::max(wo.z, min_cosine);
+  p.low = std::min(cos_i, cos_o);
+  p.high = std::max(cos_i, cos_o);
   p.wo_higher = wo.z >= wi.z;
   p.s_xy2 = sx * sx + sy * sy;
   p.d_xy2 = dx * dx + dy * dy;
-  p.s_z = p.low + p.high;
+  p.s_z = cos_i + cos_o;
   p.s_z2 = p.s_z * p.s_z;
   p.d_z = p.high - p.low;
   p.cross = sx * dy - sy * dx;

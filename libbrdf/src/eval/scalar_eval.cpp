@@ -139,15 +139,4 @@ float pdf_scalar(const Tables& t, const Vec3f& wi, const Vec3f& wo) noexcept {
   return p.valid ? pdf_terms(t, p, wi.z, wo.z) : 0.0f;
 }
 
-float eval_pdf_scalar(const Tables& t, const Vec3f& wi, const Vec3f& wo, std::span<float> f) noexcept {
-  const PairTerms p = pair_terms(wi, wo);
-  f = f.first(static_cast<std::size_t>(t.lobes.channels));
-  if (!p.valid) {
-    std::fill(f.begin(), f.end(), 0.0f);
-    return 0.0f;
-  }
-  eval_terms(t.lobes, t.grid, p, f);
-  return pdf_terms(t, p, wi.z, wo.z);
-}
-
 }  // namespace brdf::eval

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// Float evaluation of one pair, in plain C++: what single calls use, and the fallback that needs no instruction set.
+// Float evaluation of one pair in plain C++: any number of channels, any processor, the same bits everywhere.
 #pragma once
 
 #include "eval/pair_terms.h"
@@ -9,7 +9,7 @@
 
 namespace brdf::eval {
 
-/// f of the whole material (lobes and grid) into `f`, channels values.
+/// f of lobes and grid into `f`, channels values.
 void eval_scalar(const LobeParams& lobes, const GridParams& grid, const Vec3f& wi, const Vec3f& wo,
                  std::span<float> f) noexcept;
 
@@ -18,8 +18,5 @@ float pdf_scalar(const Tables& t, const Vec3f& wi, const Vec3f& wo) noexcept;
 
 /// Densities of the components alone: the cosine lobe, then each GGX lobe.
 void component_densities(const LobeParams& lobes, const Vec3f& wi, const Vec3f& wo, std::span<float> density) noexcept;
-
-/// f and the density at once.
-float eval_pdf_scalar(const Tables& t, const Vec3f& wi, const Vec3f& wo, std::span<float> f) noexcept;
 
 }  // namespace brdf::eval

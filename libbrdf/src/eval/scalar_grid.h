@@ -25,9 +25,9 @@ struct GridPosition {
 inline GridPosition grid_position(const GridParams& g, const PairTerms& t) noexcept {
   const float t_h = std::sqrt(t.s_xy2 / (t.s * (t.s + t.s_z)));
   const float t_d = std::sqrt((t.d_xy2 + t.d_z * t.d_z) / (t.norm * (t.norm + t.s)));
-  constexpr float warp_b = static_cast<float>(1 - residual::warp_share);
-  const float u_h = t_h * (g.warp_a_h / (t_h + g.kappa_h) + warp_b);
-  const float u_d = t_d * (g.warp_a_d / (t_d + g.kappa_d) + warp_b);
+  const auto warped = [](float chord, const GridParams::Axis& axis) {
+    return chord * (axis.linear + axis.square * chord) / (chord + axis.kappa);
+  };
   // cos phi_d : sin phi_d = d_z s : cross. Where both are 0, phi_d has no meaning and cos phi_d = 0 by definition
   const float along = t.d_z * t.s, across2 = t.cross * t.cross + min_denominator;
   const float r = std::sqrt(along * along + across2);
@@ -35,7 +35,7 @@ inline GridPosition grid_position(const GridParams& g, const PairTerms& t) noexc
   float u_p = q;
   if (!g.reciprocal) u_p = t.wo_higher ? 0.5f * q : 1.0f - 0.5f * q;
 
-  const float x_h = u_h * g.scale_h, x_d = u_d * g.scale_d, x_p = u_p * g.scale_p;
+  const float x_h = warped(t_h, g.axis_h), x_d = warped(t_d, g.axis_d), x_p = u_p * g.scale_p;
   const auto lower = [](float x, float last) { return static_cast<float>(static_cast<int>(std::min(x, last))); };
   const float i_h = lower(x_h, g.last_h), i_d = lower(x_d, g.last_d), i_p = lower(x_p, g.last_p);
   const auto node = static_cast<std::ptrdiff_t>((i_h * g.nodes_d + i_d) * g.nodes_p + i_p);

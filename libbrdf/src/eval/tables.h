@@ -5,12 +5,14 @@
 #include "eval/grid_params.h"
 #include "eval/lobe_params.h"
 #include "eval/mixture.h"
+#include "slices/slice_table.h"
 
 namespace brdf::eval {
 
 struct Tables {
   LobeParams lobes;
   GridParams grid;
+  slices::SliceView slices;  ///< with values: f is what they say, without lobes and grid
   Mixture mixture;
 };
 

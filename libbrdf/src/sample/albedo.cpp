@@ -2,6 +2,7 @@
 #include "sample/albedo.h"
 
 #include "eval/scalar_eval.h"
+#include "eval/single_eval.h"
 #include "eval/warp.h"
 
 #include <algorithm>
@@ -43,7 +44,7 @@ void albedo(const eval::Tables& t, const Vec3f& wo, std::span<float> a) noexcept
       for (std::size_t c = 0; c < n; ++c) total += density[c];
       if (!(total > 0.0f)) continue;
       const std::span<float> values = std::span(f).first(a.size());
-      eval::eval_scalar(t.lobes, t.grid, wi, wo, values);
+      eval::eval_single(t, wi, wo, values);
       const double w = static_cast<double>(wi.z / total);
       for (std::size_t c = 0; c < a.size(); ++c) sum[c] += static_cast<double>(values[c]) * w;
     }

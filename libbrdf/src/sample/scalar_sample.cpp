@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "sample/scalar_sample.h"
 
-#include "eval/scalar_eval.h"
+#include "eval/single_eval.h"
 #include "eval/warp.h"
 
 #include <algorithm>
@@ -25,7 +25,7 @@ Sample sample_scalar(const eval::Tables& t, const Vec3f& wo, const Vec3f& u, std
   weight = weight.first(static_cast<std::size_t>(t.lobes.channels));
   Sample s;
   const Vec3f wi = mixture_direction(t, wo, u);
-  const float pdf = wi.z > 0.0f ? eval::eval_pdf_scalar(t, wi, wo, weight) : 0.0f;
+  const float pdf = wi.z > 0.0f ? eval::eval_pdf_single(t, wi, wo, weight) : 0.0f;
   if (!(pdf > 0.0f)) {
     std::fill(weight.begin(), weight.end(), 0.0f);
     return s;

@@ -7,6 +7,7 @@
 #include "residual/slice_frame.h"
 
 #include <cstddef>
+#include <span>
 #include <vector>
 
 namespace brdf::slices {
@@ -44,6 +45,23 @@ class SliceMap {
   double jacobian(const SliceAngles& at) const noexcept;
 
   std::size_t slices() const noexcept { return theta_i_.size(); }
+  std::size_t columns() const noexcept { return columns_; }
+  std::size_t rows() const noexcept { return rows_; }
+  std::size_t all_rows() const noexcept { return all_rows_; }
+  double theta_i(std::size_t slice) const noexcept { return theta_i_[slice]; }
+  std::span<const float> ndf() const noexcept { return ndf_; }
+  std::span<const float> sigma() const noexcept { return sigma_; }
+
+  /// Density at a sample and its integral along the row up to there, in cells.
+  struct Sample {
+    float density, before;
+  };
+  /// Integral of a row, and of those before it.
+  struct Row {
+    float total, before;
+  };
+  std::span<const Sample> samples() const noexcept { return samples_; }  ///< [slice][row][column]
+  std::span<const Row> row_integrals() const noexcept { return row_; }   ///< [slice][row]
 
  private:
   struct RowPosition {
@@ -52,13 +70,6 @@ class SliceMap {
   };
   RowPosition row_at(std::size_t slice, double v) const noexcept;
 
-  /// Density at a sample and its integral along the row up to there, in cells.
-  struct Sample {
-    float density, before;
-  };
-  struct Row {
-    float total, before;
-  };
   struct Cell {
     std::size_t left;
     float fraction;

@@ -57,13 +57,42 @@ SliceTable::SliceTable(const residual::Coefficients& c)
     cube = along_axis(cube, slices, half_height_, width_);
     transformed.push_back(along_axis(cube, slices * half_height_, width_, 1));
   }
-  values_.resize(nodes * channels_);
+  for (std::size_t i = 0; i < slices; ++i) theta_i_.push_back(static_cast<float>(map_.theta_i(i)));
+  for (std::size_t i = 0; i + 1 < slices; ++i) per_radian_.push_back(static_cast<float>(1 / (map_.theta_i(i + 1) - map_.theta_i(i))));
+  per_radian_.push_back(0.0f);
+  values_.resize(nodes * channels_ + 8);
   for (std::size_t n = 0; n < nodes; ++n)
     for (std::size_t ch = 0; ch < channels_; ++ch) {
       float y = 0;
       for (std::size_t t = 0; t < channels_; ++t) y += static_cast<float>(matrix[t * channels_ + ch]) * transformed[t][n];
       values_[n * channels_ + ch] = std::max(std::exp(std::clamp(y, -largest_exponent, largest_exponent)) - epsilon, 0.0f);
     }
+}
+
+SliceView SliceTable::view() const noexcept {
+  SliceView v;
+  v.theta_i = theta_i_.data();
+  v.per_radian = per_radian_.data();
+  v.density = &map_.samples().front().density;
+  v.row = &map_.row_integrals().front().total;
+  v.ndf = map_.ndf().data();
+  v.sigma = map_.sigma().data();
+  v.values = values_.data();
+  v.slices = static_cast<int>(map_.slices());
+  v.columns = static_cast<int>(map_.columns());
+  v.rows = static_cast<int>(map_.rows());
+  v.all_rows = static_cast<int>(map_.all_rows());
+  v.sigma_nodes = static_cast<int>(map_.sigma().size());
+  v.width = static_cast<int>(width_);
+  v.height = static_cast<int>(height_);
+  v.half_height = static_cast<int>(half_height_);
+  v.channels = static_cast<int>(channels_);
+  return v;
+}
+
+std::size_t SliceTable::bytes() const noexcept {
+  return map_.samples().size_bytes() + map_.row_integrals().size_bytes() + map_.ndf().size_bytes() + map_.sigma().size_bytes() +
+         (values_.size() + theta_i_.size() + per_radian_.size()) * sizeof(float);
 }
 
 void SliceTable::eval(const SliceAngles& at, double cos_o, std::span<float> f) const noexcept {
