@@ -1,59 +1,120 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "decode/resample_slices.h"
 
-#include "eval/lobe_params.h"
-#include "eval/scalar_eval.h"
+#include "decode/node_shift.h"
+#include "eval/batch_eval.h"
 #include "residual/basis.h"
 #include "residual/half_float.h"
 #include "slices/slice_table.h"
 
 #include <algorithm>
 #include <cmath>
-#include <numbers>
 
 namespace brdf::decode {
 namespace {
 
 constexpr double smallest_sine = 1e-6;    // a pole's neighbourhood stands for the pole
-constexpr double lowest_cosine = 0.012;   // 89.3 degrees: beyond, 1 / cos theta_o takes over
-constexpr float largest_log_ratio = 9.6f;   // normal half floats
-constexpr float smallest_ratio = 6.2e-5f, largest_ratio = 32000.0f;
-constexpr float steepest = 0.7f;            // of the log ratio across the horizon
+constexpr float lowest_cosine = 0.012f;   // 89.3 degrees: beyond, 1 / cos theta_o takes over
+constexpr float largest_ratio = 14765.0f, smallest_ratio = 1 / largest_ratio;  // normal half floats
+constexpr float steepest = 2.0f;          // quotient of two neighbours across the horizon
 
 struct Angle {
-  double sine, cosine;
+  float sine, cosine;
 };
 
-Angle node_angle(int i, int n, double kappa) noexcept {
-  const double t = residual::unwarp(static_cast<double>(i) / (n - 1), kappa);  // sqrt(1 - cos theta)
-  const double cosine = 1 - t * t, sine = std::sqrt(std::max(1 - cosine * cosine, smallest_sine * smallest_sine));
-  return {sine, cosine};
+std::vector<Angle> node_angles(int n, double kappa) {
+  std::vector<Angle> angles;
+  for (int i = 0; i < n; ++i) {
+    const double t = residual::unwarp(static_cast<double>(i) / (n - 1), kappa);  // sqrt(1 - cos theta)
+    const double cosine = 1 - t * t, sine = std::sqrt(std::max(1 - cosine * cosine, smallest_sine * smallest_sine));
+    angles.push_back({static_cast<float>(sine), static_cast<float>(cosine)});
+  }
+  return angles;
 }
 
-/// Lines between nodes on a curve lie to one side of it. Moved by a twelfth of the second difference they fit it best in the
-/// least-squares sense. Along the middle axis of [outer][n][inner]; ends stay, and no node moves by more than
-/// a twentieth: where it would have to, the nodes do not resolve the curve.
-std::vector<float> least_squares_nodes(const std::vector<float>& nodes, std::size_t outer, std::size_t n, std::size_t inner) {
-  std::vector<float> out = nodes;
-  for (std::size_t a = 0; a < outer; ++a)
-    for (std::size_t i = 1; i + 1 < n; ++i)
-      for (std::size_t k = 0; k < inner; ++k) {
-        const std::size_t at = (a * n + i) * inner + k;
-        const float bend = nodes[at - inner] - 2 * nodes[at] + nodes[at + inner];
-        out[at] = nodes[at] - std::clamp(bend / 12, -0.05f * nodes[at], 0.05f * nodes[at]);
+/// Pairs of directions in planes.
+struct Pairs {
+  explicit Pairs(std::size_t most) : planes(6 * most), capacity(most) {}
+  std::vector<float> planes;
+  std::size_t capacity, size = 0;
+
+  void push(const Vec3f& wi, const Vec3f& wo) noexcept {
+    const float w[6] = {wi.x, wi.y, wi.z, wo.x, wo.y, wo.z};
+    for (std::size_t k = 0; k < 6; ++k) planes[k * capacity + size] = w[k];
+    ++size;
+  }
+  DirectionSpan directions(std::size_t first) const noexcept {
+    const float* p = planes.data() + first * capacity;
+    return {p, p + capacity, p + 2 * capacity, size};
+  }
+};
+
+/// Measurement over lobes for all (p, d) of one theta_h.
+class RatioPlane {
+ public:
+  RatioPlane(const slices::SliceTable& table, const LobeSet& lobes, const residual::GridSize& size, float epsilon)
+      : n_d_(static_cast<std::size_t>(size.n_d)), n_p_(static_cast<std::size_t>(size.n_p)), channels_(static_cast<std::size_t>(lobes.channels)),
+        epsilon_(epsilon), pairs_(n_d_ * n_p_), measured_(n_d_ * n_p_ * channels_), analytic_(measured_.size()), above_(n_p_) {
+    of_lobes_.lobes = eval::LobeParams(lobes);
+    of_slices_.lobes.channels = lobes.channels;
+    of_slices_.slices = table.view();
+  }
+
+  /// [d][p][channel]
+  void fill(const Angle& half, const std::vector<Angle>& differences, const std::vector<Angle>& azimuths, float* out) {
+    collect(half, differences, azimuths);
+    const DirectionSpan wi = pairs_.directions(0), wo = pairs_.directions(3);
+    eval::eval_batch(of_slices_, wi, wo, {measured_.data(), pairs_.capacity});
+    eval::eval_batch(of_lobes_, wi, wo, {analytic_.data(), pairs_.capacity});
+    for (std::size_t c = 0; c < channels_; ++c) {
+      const float *f = measured_.data() + c * pairs_.capacity, *l = analytic_.data() + c * pairs_.capacity;
+      for (std::size_t p = 0; p < n_p_; f += above_[p], l += above_[p], ++p) line(f, l, above_[p], out + p * channels_ + c);
+    }
+  }
+
+ private:
+  void collect(const Angle& half, const std::vector<Angle>& differences, const std::vector<Angle>& azimuths) {
+    pairs_.size = 0;
+    for (std::size_t p = 0; p < n_p_; ++p) {
+      std::size_t& above = above_[p];  // nodes above the horizon; they come first
+      for (above = 0; above < n_d_; ++above) {
+        const Angle& difference = differences[above];
+        const float x = difference.sine * azimuths[p].cosine, y = difference.sine * azimuths[p].sine;
+        const float z = half.cosine * difference.cosine, forward = half.sine * difference.cosine;
+        const Vec3f wi{forward + half.cosine * x, y, z - half.sine * x}, wo{forward - half.cosine * x, -y, z + half.sine * x};
+        if (std::min(wi.z, wo.z) < lowest_cosine) break;
+        pairs_.push(wi, wo);
       }
-  return out;
-}
+    }
+  }
+
+  /// Ratios along theta_d; behind the last node above the horizon they go on by the last quotient once.
+  void line(const float* f, const float* l, std::size_t above, float* out) const noexcept {
+    const std::size_t step = n_p_ * channels_;
+    float last = 1, before = 1;
+    for (std::size_t d = 0; d < above; ++d) {
+      before = d > 0 ? last : 1;
+      last = std::clamp((f[d] + epsilon_) / (l[d] + epsilon_), smallest_ratio, largest_ratio);
+      out[d * step] = last;
+    }
+    const float quotient = above > 1 ? std::clamp(last / before, 1 / steepest, steepest) : 1.0f;
+    const float beyond = std::clamp(last * quotient, smallest_ratio, largest_ratio);
+    for (std::size_t d = above; d < n_d_; ++d) out[d * step] = beyond;
+  }
+
+  std::size_t n_d_, n_p_, channels_;
+  float epsilon_;
+  Pairs pairs_;
+  std::vector<float> measured_, analytic_;  ///< [channel][pair]
+  std::vector<std::size_t> above_;
+  eval::Tables of_slices_, of_lobes_;
+};
 
 }  // namespace
 
 residual::ResidualGrid resample_slices(const residual::Coefficients& c, const LobeSet& lobes, const residual::GridSize& size) {
   const residual::Basis basis = residual::basis_of(c.basis);
   const slices::SliceTable table(c);
-  const eval::LobeParams analytic(lobes);
-  const eval::GridParams none;
-  const auto channels = static_cast<std::size_t>(c.channels);
-
   residual::ResidualGrid grid;
   grid.n_h = size.n_h;
   grid.n_d = size.n_d;
@@ -62,54 +123,23 @@ residual::ResidualGrid resample_slices(const residual::Coefficients& c, const Lo
   grid.kappa_h = static_cast<float>(basis.kappa_h);
   grid.kappa_d = static_cast<float>(basis.kappa_d);
   grid.epsilon = static_cast<float>(basis.epsilon);
-  const auto stride_d = static_cast<std::size_t>(size.n_p) * channels, stride_h = static_cast<std::size_t>(size.n_d) * stride_d;
-  grid.ratio.assign(static_cast<std::size_t>(size.n_h) * stride_h + 8, residual::half_from_float(1.0f));
 
-  std::vector<float> ratio(grid.ratio.size() - 8);
-  std::vector<float> f(channels), l(channels);
-  std::vector<float> line(static_cast<std::size_t>(size.n_d) * channels);  // log ratio along theta_d
-  std::vector<Angle> differences;
-  for (int d = 0; d < size.n_d; ++d) differences.push_back(node_angle(d, size.n_d, basis.kappa_d));
-  for (int h = 0; h < size.n_h; ++h) {
-    const Angle half = node_angle(h, size.n_h, basis.kappa_h);
-    for (int p = 0; p < size.n_p; ++p) {
-      const double cos_phi = residual::cos_phi_of(static_cast<double>(p) / (size.n_p - 1));
-      const double sin_phi = std::sqrt(std::max(1 - cos_phi * cos_phi, 0.0));
-      int above = 0;  // nodes above the horizon; they come first
-      for (; above < size.n_d; ++above) {
-        const Angle& difference = differences[static_cast<std::size_t>(above)];
-        const double x = difference.sine * cos_phi, y = difference.sine * sin_phi;
-        const Vec3d wi{half.cosine * x + half.sine * difference.cosine, y, half.cosine * difference.cosine - half.sine * x};
-        const Vec3d wo{half.sine * difference.cosine - half.cosine * x, -y, half.cosine * difference.cosine + half.sine * x};
-        if (std::min(wi.z, wo.z) < lowest_cosine) break;
-        table.eval(slices::slice_angles(wi.x, wi.y, wi.z, wo.x, wo.y, wo.z), wo.z, f);
-        eval::eval_scalar(analytic, none, Vec3f(wi), Vec3f(wo), l);
-        for (std::size_t ch = 0; ch < channels; ++ch)
-          line[static_cast<std::size_t>(above) * channels + ch] = std::clamp(
-              std::log((f[ch] + grid.epsilon) / (l[ch] + grid.epsilon)), -largest_log_ratio, largest_log_ratio);
-      }
-      for (int d = 0; d < size.n_d; ++d) {
-        float* out = ratio.data() + static_cast<std::size_t>(h) * stride_h + static_cast<std::size_t>(d) * stride_d +
-                             static_cast<std::size_t>(p) * channels;
-        for (std::size_t ch = 0; ch < channels; ++ch) {
-          float value = 0;
-          if (d < above) {
-            value = line[static_cast<std::size_t>(d) * channels + ch];
-          } else if (above > 0) {
-            const float last = line[static_cast<std::size_t>(above - 1) * channels + ch];
-            const float slope = above > 1 ? last - line[static_cast<std::size_t>(above - 2) * channels + ch] : 0.0f;
-            value = std::clamp(last + std::clamp(slope, -steepest, steepest), -largest_log_ratio, largest_log_ratio);
-          }
-          out[ch] = std::exp(value);
-        }
-      }
-    }
+  const std::vector<Angle> halves = node_angles(size.n_h, basis.kappa_h), differences = node_angles(size.n_d, basis.kappa_d);
+  std::vector<Angle> azimuths;
+  for (int p = 0; p < size.n_p; ++p) {
+    const double cosine = residual::cos_phi_of(static_cast<double>(p) / (size.n_p - 1));
+    azimuths.push_back({static_cast<float>(std::sqrt(std::max(1 - cosine * cosine, 0.0))), static_cast<float>(cosine)});
   }
-  const std::size_t n_h = static_cast<std::size_t>(size.n_h), n_d = static_cast<std::size_t>(size.n_d), n_p = static_cast<std::size_t>(size.n_p);
-  ratio = least_squares_nodes(ratio, n_h * n_d, n_p, channels);
-  ratio = least_squares_nodes(ratio, n_h, n_d, n_p * channels);
-  ratio = least_squares_nodes(ratio, 1, n_h, n_d * n_p * channels);
-  for (std::size_t i = 0; i < ratio.size(); ++i) grid.ratio[i] = residual::half_from_float(std::clamp(ratio[i], smallest_ratio, largest_ratio));
+  const auto n_h = static_cast<std::size_t>(size.n_h), n_d = static_cast<std::size_t>(size.n_d), n_p = static_cast<std::size_t>(size.n_p);
+  const auto channels = static_cast<std::size_t>(c.channels), plane = n_d * n_p * channels;
+  std::vector<float> ratio(n_h * plane), moved(ratio.size());
+  RatioPlane planes(table, lobes, size, grid.epsilon);
+  for (std::size_t h = 0; h < n_h; ++h) planes.fill(halves[h], differences, azimuths, ratio.data() + h * plane);
+  least_squares_nodes(ratio, n_h * n_d, n_p, channels, moved);
+  least_squares_nodes(moved, n_h, n_d, n_p * channels, ratio);
+  least_squares_nodes(ratio, 1, n_h, plane, moved);
+  grid.ratio.assign(moved.size() + 8, residual::half_from_float(1.0f));
+  to_halves(moved, std::span(grid.ratio).first(moved.size()));
   return grid;
 }
 

@@ -12,13 +12,10 @@
 
 #include <algorithm>
 
+#include "residual/half_vectors-inl.h"
+
 HWY_BEFORE_NAMESPACE();
 namespace brdf::residual::HWY_NAMESPACE {
-namespace hn = hwy::HWY_NAMESPACE;
-
-using Floats = hn::ScalableTag<float>;
-using V = hn::Vec<Floats>;
-
 /// out[i] += a in[i] for a multiple of 16 floats
 HWY_INLINE void add_scaled(float a, const float* HWY_RESTRICT in, float* HWY_RESTRICT out, std::size_t n) {
   const Floats d;
@@ -41,17 +38,6 @@ HWY_INLINE V exponential(V x) {
     p = hn::Add(hn::Mul(p, r), set(c));
   const V e = hn::Add(hn::Add(hn::Mul(hn::Mul(p, r), r), r), set(1.0F));
   return hn::Mul(e, hn::BitCast(d, hn::ShiftLeft<23>(hn::Add(whole_bits, hn::Set(ints, 127)))));
-}
-
-/// Halves nearest to normal positive numbers, ties to even.
-HWY_INLINE void store_halves(V x, std::uint16_t* HWY_RESTRICT out) {
-  const hn::RebindToUnsigned<Floats> bits_of;
-  const hn::Rebind<std::uint16_t, Floats> halves;
-  const auto bits = hn::BitCast(bits_of, x);
-  const auto odd = hn::And(hn::ShiftRight<13>(bits), hn::Set(bits_of, 1));
-  const auto rounded = hn::ShiftRight<13>(hn::Add(hn::Add(bits, hn::Set(bits_of, 0xFFF)), odd));
-  const auto half = hn::Sub(rounded, hn::Set(bits_of, 112U << 10));
-  hn::StoreU(hn::DemoteTo(halves, hn::BitCast(hn::RebindToSigned<Floats>(), half)), halves, out);
 }
 
 /// Sums over k: [m][l][h]; whether anything is there: used[m][l].

@@ -3,40 +3,13 @@
 
 #include "residual/basis.h"
 #include "residual/channel_transform.h"
+#include "slices/axis_sums.h"
 
 #include <algorithm>
 #include <cmath>
-#include <numbers>
 
 namespace brdf::slices {
 namespace {
-
-/// table[j * n + i] = cos(pi j (i + 1/2) / n)
-std::vector<float> cosines_at_middles(std::size_t n) {
-  std::vector<float> table(n * n), row(n);
-  for (std::size_t i = 0; i < n; ++i) {
-    residual::cosines(std::cos(std::numbers::pi * (static_cast<double>(i) + 0.5) / static_cast<double>(n)), static_cast<int>(n), row.data());
-    for (std::size_t j = 0; j < n; ++j) table[j * n + i] = row[j];
-  }
-  return table;
-}
-
-/// out[a][i][b] = sum over j of cosine[j][i] in[a][j][b]
-std::vector<float> along_axis(const std::vector<float>& in, std::size_t outer, std::size_t n, std::size_t inner) {
-  const std::vector<float> cosine = cosines_at_middles(n);
-  std::vector<float> out(in.size(), 0.0f);
-  for (std::size_t a = 0; a < outer; ++a)
-    for (std::size_t j = 0; j < n; ++j) {
-      const float* from = in.data() + (a * n + j) * inner;
-      if (std::all_of(from, from + inner, [](float v) { return v == 0; })) continue;
-      for (std::size_t i = 0; i < n; ++i) {
-        float* to = out.data() + (a * n + i) * inner;
-        const float c = cosine[j * n + i];
-        for (std::size_t b = 0; b < inner; ++b) to[b] += c * from[b];
-      }
-    }
-  return out;
-}
 
 constexpr float largest_exponent = 80.0f;
 
@@ -53,9 +26,9 @@ SliceTable::SliceTable(const residual::Coefficients& c)
     std::vector<float> cube(nodes, 0.0f);
     for (std::size_t j = 0; j < values.size(); ++j)
       cube[(c.order[j].m * half_height_ + c.order[j].l) * width_ + c.order[j].k] = values[j];
-    cube = along_axis(cube, 1, slices, half_height_ * width_);
-    cube = along_axis(cube, slices, half_height_, width_);
-    transformed.push_back(along_axis(cube, slices * half_height_, width_, 1));
+    cube = cosine_sums(cube, 1, slices, half_height_ * width_);
+    cube = cosine_sums(cube, slices, half_height_, width_);
+    transformed.push_back(cosine_sums(cube, slices * half_height_, width_, 1));
   }
   for (std::size_t i = 0; i < slices; ++i) theta_i_.push_back(static_cast<float>(map_.theta_i(i)));
   for (std::size_t i = 0; i + 1 < slices; ++i) per_radian_.push_back(static_cast<float>(1 / (map_.theta_i(i + 1) - map_.theta_i(i))));
