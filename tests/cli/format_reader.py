@@ -99,8 +99,7 @@ class FormatReader(unittest.TestCase):
         for file in FILES:
             material = Brdfc(file.read_bytes())
             for (wi, wo), f in zip(pairs, self.evaluated(file, pairs, "exact")):
-                expected = material.eval_resampled(wi, wo, "exact") if material.axes == 1 else material.eval(wi, wo)
-                self.close(f, expected, 0.01, f"{file.name} {wi} {wo}")
+                self.close(f, material.eval(wi, wo), 0.01, f"{file.name} {wi} {wo}")
 
     @unittest.skipUnless(os.environ.get("BRDF_COMPRESS"), "brdf-compress is not built")
     @unittest.skipUnless(MEASURED.exists(), "measured files are not here")
@@ -117,9 +116,10 @@ class FormatReader(unittest.TestCase):
             pairs = [*directions(60), ((0.0, 0.0, 1.0), (0.6, 0.0, 0.8)),
                      ((math.sqrt(1 - 1e-4), 0.0, 0.01), (-math.sqrt(0.5), 0.0, math.sqrt(0.5)))]
             # nodes are the same but for ties of half floats; the tolerance is that of the other files
-            for level, some in ("balanced", pairs), ("exact", pairs[:20]):
-                for (wi, wo), f in zip(some, self.evaluated(file, some, level)):
-                    self.close(f, material.eval_resampled(wi, wo, level), 0.01, f"{level} {wi} {wo}")
+            for (wi, wo), f in zip(pairs, self.evaluated(file, pairs, "balanced")):
+                self.close(f, material.eval_resampled(wi, wo), 0.01, f"balanced {wi} {wo}")
+            for (wi, wo), f in zip(pairs, self.evaluated(file, pairs, "exact")):
+                self.close(f, material.eval(wi, wo), 0.001, f"exact {wi} {wo}")
             lobes = Brdfc(data, 0)
             for (wi, wo), f in zip(pairs, self.evaluated(file, pairs, "fast")):
                 self.close(f, lobes.eval(wi, wo), 0.001, f"fast {wi} {wo}")
@@ -128,8 +128,8 @@ class FormatReader(unittest.TestCase):
     def closed_formula_is_near(self, material, pairs):
         """The grid is another form of the formula: most values hardly differ."""
         near = [abs(a - b) <= 0.05 * b + 1e-3 for wi, wo in pairs
-                for a, b in zip(material.eval_resampled(wi, wo, "exact"), material.eval(wi, wo))]
-        self.assertGreater(sum(near), 0.9 * len(near))
+                for a, b in zip(material.eval_resampled(wi, wo), material.eval(wi, wo))]
+        self.assertGreater(sum(near), 0.8 * len(near))
 
 
 if __name__ == "__main__":

@@ -2,7 +2,7 @@
 # SPDX-License-Identifier: Apache-2.0
 """A second reader of .brdfc files, written from docs/format.md alone and made to be read, not to be fast.
 
-It evaluates the residual as the formula that it is, without a grid; one in slices also as libbrdf resamples it. Usage,
+It evaluates the residual as the formula that it is, without a grid; one in slices also as libbrdf resamples it for its balanced level. Usage,
 in the folder tests:
   python3 -m support.brdfc_reader FILE [REFINEMENTS] < rows of wi.xyz wo.xyz > rows of f
 """
@@ -16,7 +16,6 @@ from support.brdfc_slices import ResampledGrid, SliceFrame, SliceTable
 
 __all__ = ["Brdfc", "FormatError", "xxh32"]
 BALANCED = (56, 28, 25), (48, 40, 21), (72, 32, 17), (32, 44, 29)
-EXACT = 128, 64, 49
 
 
 def channel_matrix(transform, n):
@@ -33,7 +32,7 @@ class Brdfc:
     """A file, read up to `refinements` (all when None). `prefix` allows it to be cut at a boundary."""
     def __init__(self, data, refinements=None, prefix=False):
         self.lobes, self.layers, self.errors, self.order = None, [], [], []
-        self.table, self.grids = None, {}
+        self.table = self.grid = None
         self.read_header(data)
         require(len(data) <= self.total, "the file is longer than its header says")
         require(prefix or len(data) == self.total, "the file is cut")
@@ -204,16 +203,14 @@ class Brdfc:
             r = [x + y * value for x, y in zip(r, a)]
         return self.with_ratio(wi, wo, [math.exp(min(max(y, -9.7), 10.39)) for y in r])
 
-    def eval_resampled(self, wi, wo, level):
-        """f as libbrdf has it at level "balanced" or "exact"; of files with axes 1."""
+    def eval_resampled(self, wi, wo):
+        """f as libbrdf has it at level "balanced"; of files with axes 1."""
         require(self.axes == 1, "the residual is not in slices")
         if wi[2] <= 0 or wo[2] <= 0 or not self.has_residual():
             return self.eval(wi, wo)
-        if level not in self.grids:
-            size = self.balanced if level == "balanced" else EXACT
-            self.grids[level] = ResampledGrid(size, self.kappa_h, self.kappa_d, self.epsilon, self.slice_table(),
-                                              self.lobe_sum)
-        return self.with_ratio(wi, wo, self.grids[level].ratio(self.coordinates(wi, wo)))
+        if self.grid is None:
+            self.grid = ResampledGrid(self.balanced, self.kappa_h, self.kappa_d, self.epsilon, self.slice_table(), self.lobe_sum)
+        return self.with_ratio(wi, wo, self.grid.ratio(self.coordinates(wi, wo)))
 
     def has_residual(self):
         """Whether a layer has a place in any channel."""

@@ -191,20 +191,24 @@ class ResampledGrid:
         cos_phi = 1 - 4 * u * u if u <= 0.5 else 4 * (1 - u) ** 2 - 1
         sin_phi = math.sqrt(max(1 - cos_phi * cos_phi, 0.0))
         sin_h, cos_h = self.angles_h[h]
-        rho = []
+        ratio = []
         for sin_d, cos_d in self.angles_d:
             x, y = sin_d * cos_phi, sin_d * sin_phi
             wi = sin_h * cos_d + cos_h * x, y, cos_h * cos_d - sin_h * x
             wo = sin_h * cos_d - cos_h * x, -y, cos_h * cos_d + sin_h * x
             if min(wi[2], wo[2]) < 0.012:
                 break
-            rho.append([min(max(math.log((f + self.epsilon) / (lobe + self.epsilon)), -9.6), 9.6)
-                        for f, lobe in zip(self.slices.eval(wi, wo), self.lobes(wi, wo))])
-        beyond = [0.0] * self.slices.channels
-        if rho:
-            before = rho[-2] if len(rho) > 1 else rho[-1]
-            beyond = [min(max(b + min(max(b - a, -0.7), 0.7), -9.6), 9.6) for a, b in zip(before, rho[-1])]
-        return [[math.exp(v) for v in values] for values in rho + [beyond] * (n_d - len(rho))]
+            ratio.append([self.limited((f + self.epsilon) / (lobe + self.epsilon))
+                          for f, lobe in zip(self.slices.eval(wi, wo), self.lobes(wi, wo))])
+        beyond = [1.0] * self.slices.channels
+        if ratio:
+            before = ratio[-2] if len(ratio) > 1 else ratio[-1]
+            beyond = [self.limited(b * min(max(b / a, 0.5), 2.0)) for a, b in zip(before, ratio[-1])]
+        return ratio + [beyond] * (n_d - len(ratio))
+
+    @staticmethod
+    def limited(ratio):
+        return min(max(ratio, 1 / 14765), 14765.0)
 
     def adjusted(self, node, axes):
         """R of a node after the adjustment along the last `axes` of (h, d, p)."""
