@@ -43,7 +43,7 @@ inline residual::ResidualGrid synthetic_grid(const GridShape& shape, double nois
           g.ratio.push_back(residual::half_from_float(static_cast<float>(std::exp(smooth + noise * uniform(random)))));
         }
   // what lies behind the last node must not matter, so it is not a number that could pass for one
-  g.ratio.insert(g.ratio.end(), 8, std::uint16_t{0x7fff});
+  g.ratio.insert(g.ratio.end(), 8, residual::half_max);  // finite, and anything but harmless where it is used
   return g;
 }
 

@@ -12,7 +12,7 @@ namespace brdf::residual {
 /// u_h = warp(chord(theta_h), kappa_h), u_d = warp(chord(theta_d), kappa_d); node i of n sits at i / (n - 1).
 /// u_p = phi_coordinate(cos_phi_d); when `reciprocal`, u_p = 2 phi_coordinate(|cos_phi_d|), so that exchange of the
 /// directions gives the same bits. Node index = p + n_p * (d + n_d * h); `channels` adjacent halves per node.
-/// `ratio` is padded by at least 8 halves so that 32-bit gathers may read past the last node.
+/// `ratio` is padded by at least 8 finite halves, so that kernels may read whole vectors past the last node.
 struct ResidualGrid {
   int n_h = 0, n_d = 0, n_p = 0, channels = 0;
   bool reciprocal = false;
