@@ -35,20 +35,23 @@ std::vector<float> random_weights() {
 }
 
 /// By angles and in double.
-std::array<double, 3> defined_value(const std::vector<float>& weights, Azimuth azimuth, const Vec3d& wi, const Vec3d& wo) {
+std::array<double, 3> defined_value(const std::vector<float>& weights, Azimuth azimuth, const Vec3d& wi,
+                                    const Vec3d& wo) {
   constexpr double pi = std::numbers::pi;
   const Vec3d s = wi + wo;
   const double theta_h = std::atan2(std::hypot(s.x, s.y), s.z), phi_h = std::atan2(s.y, s.x);
   const double x = std::cos(phi_h) * wi.x + std::sin(phi_h) * wi.y, y = std::cos(phi_h) * wi.y - std::sin(phi_h) * wi.x;
-  const double dx = std::cos(theta_h) * x - std::sin(theta_h) * wi.z, dz = std::sin(theta_h) * x + std::cos(theta_h) * wi.z;
+  const double dx = std::cos(theta_h) * x - std::sin(theta_h) * wi.z,
+               dz = std::sin(theta_h) * x + std::cos(theta_h) * wi.z;
   const double theta_d = std::atan2(std::hypot(dx, y), dz);
   double phi_d = std::atan2(y, dx);
   if (azimuth == Azimuth::full_circle)
     phi_d += pi;
   else if (phi_d < 0)
     phi_d += pi;
-  std::vector<double> in{std::sin(theta_h), 0, std::cos(theta_h), std::sin(theta_d) * std::cos(phi_d),
-                         std::sin(theta_d) * std::sin(phi_d), std::cos(theta_d)};
+  std::vector<double> in{
+      std::sin(theta_h), 0, std::cos(theta_h), std::sin(theta_d) * std::cos(phi_d), std::sin(theta_d) * std::sin(phi_d),
+      std::cos(theta_d)};
   std::size_t at = 0;
   for (const std::size_t m : {21U, 21U, 3U}) {
     std::vector<double> out(m);
@@ -110,7 +113,8 @@ TEST(NeuralBrdf, SlowSharedDataFiguresAgreeWithAnotherImplementation) {
   const auto data = std::filesystem::path(BRDF_SHARED_DIR) / "data";
   if (!std::filesystem::exists(data / "models" / "nbrdf_rgl.npz")) GTEST_SKIP() << data << " is absent";
   const peers::NpzFile networks(data / "models" / "nbrdf_rgl.npz");
-  for (const Figures& known : {Figures{"paper_white", 53.4, 38.9, 0.0031}, Figures{"irid_flake_paint1", 31.0, 18.4, 0.0020}}) {
+  for (const Figures& known :
+       {Figures{"paper_white", 53.4, 38.9, 0.0031}, Figures{"irid_flake_paint1", 31.0, 18.4, 0.0020}}) {
     const auto weights = networks.floats(known.material);
     ASSERT_TRUE(weights);
     const NeuralBrdf network(*weights, Azimuth::full_circle);

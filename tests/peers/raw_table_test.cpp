@@ -32,8 +32,8 @@ Measurement filled_measurement(const test::TableShape& shape, SamplePosition pos
     for (int j = 0; j < t.n_theta_d; ++j)
       for (int k = 0; k < t.n_phi_d; ++k)
         for (int c = 0; c < 3; ++c)
-          t.values[at++] = static_cast<float>(2 + std::sin(0.3 * i) + 0.5 * std::cos(0.4 * j) + 0.2 * std::sin(0.9 * k) +
-                                              0.1 * c);
+          t.values[at++] =
+              static_cast<float>(2 + std::sin(0.3 * i) + 0.5 * std::cos(0.4 * j) + 0.2 * std::sin(0.9 * k) + 0.1 * c);
   return m;
 }
 
@@ -161,7 +161,8 @@ TEST(RawTable, ResamplesToMerl) {
   for (std::size_t cell = 0; cell < t.valid.size(); ++cell)
     if (t.valid[cell] != 0 && source.valid[cell] != 0)
       for (std::size_t c = 0; c < 3; ++c)
-        off += std::abs(t.values[3 * cell + c] - source.values[3 * cell + c]) > 1e-4F * source.values[3 * cell + c] ? 1 : 0;
+        off += std::abs(t.values[3 * cell + c] - source.values[3 * cell + c]) > 1e-4F * source.values[3 * cell + c] ? 1
+                                                                                                                    : 0;
   EXPECT_LT(off, t.valid.size() / 1000);
 }
 

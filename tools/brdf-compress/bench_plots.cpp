@@ -54,7 +54,8 @@ std::string python_with_matplotlib() {
 BenchPlots::BenchPlots(fs::path folder, bool force) : folder_(std::move(folder)) {
   std::error_code error;
   fs::create_directories(folder_, error);
-  if (!fs::is_directory(folder_)) throw Failure(ExitCode::failed, folder_.string() + ": is no folder and cannot be made one");
+  if (!fs::is_directory(folder_))
+    throw Failure(ExitCode::failed, folder_.string() + ": is no folder and cannot be made one");
   check_output(folder_ / "tradeoff.json", {}, force);
   python_ = python_with_matplotlib();
 }

@@ -67,8 +67,9 @@ EvalSpeed eval_speed_of(const Peer& peer) {
   std::vector<float> f(3 * batch);
   std::array<float, 3> one{};
   EvalSpeed speed;
-  speed.batch = pool.nanoseconds(
-      [&](std::size_t first) { peer.eval(part(pool.wi, first), part(pool.wo, first), {f.data(), batch}); });
+  speed.batch = pool.nanoseconds([&](std::size_t first) {
+    peer.eval(part(pool.wi, first), part(pool.wo, first), {f.data(), batch});
+  });
   speed.scalar = pool.nanoseconds_scalar(
       [&](std::size_t i) { peer.eval(pool.wi.get(i), pool.wo.get(i), std::span<float, 3>(one)); });
   return speed;

@@ -45,7 +45,11 @@ HWY_INLINE Pairs network_inputs(const Directions& wi, const Directions& wo, Azim
   if (azimuth == Azimuth::full_circle) turned = hn::Eq(zero, zero);
   x = hn::IfThenElse(turned, hn::Neg(x), x);
   y = hn::IfThenElse(turned, hn::Neg(y), y);
-  return {hn::Mul(rho, over_s),  hn::Mul(sz, over_s), x, y, hn::Mul(s, half),
+  return {hn::Mul(rho, over_s),
+          hn::Mul(sz, over_s),
+          x,
+          y,
+          hn::Mul(s, half),
           hn::And(hn::Gt(wi.z, zero), hn::Gt(wo.z, zero))};
 }
 
@@ -84,7 +88,8 @@ inline constexpr std::size_t input_row[5] = {0, 2, 3, 4, 5};  // the second inpu
 inline constexpr std::size_t hidden_row[hidden] = {0,  1,  2,  3,  4,  5,  6,  7,  8,  9, 10,
                                                    11, 12, 13, 14, 15, 16, 17, 18, 19, 20};
 
-void run_network(const float* weights, Azimuth azimuth, const DirectionSpan& wi, const DirectionSpan& wo, PlanarSpan f) {
+void run_network(const float* weights, Azimuth azimuth, const DirectionSpan& wi, const DirectionSpan& wo,
+                 PlanarSpan f) {
   constexpr std::size_t n = hidden, channels = NeuralBrdf::channels;
   const float *const w1 = weights, *const b1 = w1 + NeuralBrdf::inputs * n, *const w2 = b1 + n, *const b2 = w2 + n * n,
                      *const w3 = b2 + n, *const b3 = w3 + n * channels;

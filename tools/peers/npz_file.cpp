@@ -49,7 +49,8 @@ Archive open_archive(std::span<const std::byte> bytes, const std::string& name) 
     throw failure(ErrorCode::malformed, name, "is no readable zip archive, " + text_of(error));
   }
   zip_error_fini(&error);
-  if (zip_get_num_entries(archive.get(), 0) == 0) throw failure(ErrorCode::malformed, name, "is a zip archive of nothing");
+  if (zip_get_num_entries(archive.get(), 0) == 0)
+    throw failure(ErrorCode::malformed, name, "is a zip archive of nothing");
   return archive;
 }
 
@@ -60,9 +61,9 @@ std::vector<std::byte> unpack(zip_t* archive, std::uint64_t index, const std::st
   if (zip_stat_index(archive, index, 0, &stat) != 0 || (stat.valid & ZIP_STAT_SIZE) == 0)
     throw failure(ErrorCode::malformed, name, "has no size in the archive");
   if (stat.size > max_array_bytes) {
-    throw failure(ErrorCode::limit_exceeded, name,
-                  "has " + std::to_string(stat.size) + " bytes, at most " + std::to_string(max_array_bytes) +
-                      " are allowed");
+    throw failure(
+        ErrorCode::limit_exceeded, name,
+        "has " + std::to_string(stat.size) + " bytes, at most " + std::to_string(max_array_bytes) + " are allowed");
   }
   const Entry entry(zip_fopen_index(archive, index, 0));
   if (!entry) throw failure(ErrorCode::malformed, name, std::string("cannot be unpacked, ") + zip_strerror(archive));
@@ -72,7 +73,8 @@ std::vector<std::byte> unpack(zip_t* archive, std::uint64_t index, const std::st
   std::byte behind{};
   const zip_int64_t rest = count < 0 ? count : zip_fread(entry.get(), &behind, 1);
   if (rest != 0 || static_cast<std::uint64_t>(count) != stat.size)
-    throw failure(ErrorCode::malformed, name, "cannot be unpacked, its bytes contradict size or checksum in the archive");
+    throw failure(ErrorCode::malformed, name,
+                  "cannot be unpacked, its bytes contradict size or checksum in the archive");
   return bytes;
 }
 

@@ -37,10 +37,10 @@ Size checked_size(const HalfDifferenceTable& t) {
                   static_cast<std::size_t>(t.n_phi_d)};
   if (!sound || t.valid.size() != size.cells() || t.values.size() != channels * size.cells() ||
       channels * size.n_h * size.n_d * (size.n_p + 1) + 8 > std::numeric_limits<std::int32_t>::max()) {
-    throw Error(ErrorCode::invalid_argument,
-                "raw table: has " + std::to_string(t.values.size()) + " values for " + std::to_string(t.n_theta_h) +
-                    " x " + std::to_string(t.n_theta_d) + " x " + std::to_string(t.n_phi_d) +
-                    " bins, three per bin and at least 2 bins an axis are needed");
+    throw Error(ErrorCode::invalid_argument, "raw table: has " + std::to_string(t.values.size()) + " values for " +
+                                                 std::to_string(t.n_theta_h) + " x " + std::to_string(t.n_theta_d) +
+                                                 " x " + std::to_string(t.n_phi_d) +
+                                                 " bins, three per bin and at least 2 bins an axis are needed");
   }
   return size;
 }
@@ -55,7 +55,8 @@ std::array<float, channels> neighbours_mean(const HalfDifferenceTable& t, const 
       for (const std::size_t c : {(k + n.n_p - 1) % n.n_p, k, (k + 1) % n.n_p}) {
         const std::size_t cell = (a * n.n_d + b) * n.n_p + c;
         if (t.valid[cell] == 0) continue;
-        for (std::size_t channel = 0; channel < channels; ++channel) sum[channel] += t.values[channels * cell + channel];
+        for (std::size_t channel = 0; channel < channels; ++channel)
+          sum[channel] += t.values[channels * cell + channel];
         ++count;
       }
     }
@@ -130,12 +131,19 @@ RawTable::RawTable(const HalfDifferenceTable& table) {
     }
   }
   std::fill_n(to, read_behind, 0.0F);
-  view_ = {texels_.get(), table.n_theta_h, table.n_theta_d, table.n_phi_d, static_cast<std::int32_t>(row),
-           static_cast<std::int32_t>(row * n.n_d), table.position == SamplePosition::centre ? 0.5F : 0.0F,
+  view_ = {texels_.get(),
+           table.n_theta_h,
+           table.n_theta_d,
+           table.n_phi_d,
+           static_cast<std::int32_t>(row),
+           static_cast<std::int32_t>(row * n.n_d),
+           table.position == SamplePosition::centre ? 0.5F : 0.0F,
            table.full_circle};
 }
 
-void RawTable::eval(DirectionSpan wi, DirectionSpan wo, PlanarSpan f) const noexcept { look_up_batch(view_, wi, wo, f); }
+void RawTable::eval(DirectionSpan wi, DirectionSpan wo, PlanarSpan f) const noexcept {
+  look_up_batch(view_, wi, wo, f);
+}
 
 void RawTable::eval(const Vec3f& wi, const Vec3f& wo, std::span<float, 3> f) const noexcept {
   std::ranges::fill(f, 0.0F);
@@ -151,8 +159,7 @@ void RawTable::eval(const Vec3f& wi, const Vec3f& wo, std::span<float, 3> f) con
   const float azimuth = first_quadrant_angle(y * y, x * x);
   const float phi_d = choose((x < 0) != (y < 0), pi - azimuth, azimuth) + choose(view_.full_circle && y < 0, pi, 0);
   const RawTableView& t = view_;
-  const AxisPosition h =
-      axis_position(std::sqrt(theta_h / quarter) * static_cast<float>(t.n_h) - t.offset, t.n_h - 1);
+  const AxisPosition h = axis_position(std::sqrt(theta_h / quarter) * static_cast<float>(t.n_h) - t.offset, t.n_h - 1);
   const AxisPosition v = axis_position(theta_d * (static_cast<float>(t.n_d) / quarter) - t.offset, t.n_d - 1);
   const AxisPosition p =
       circle_position(phi_d * (static_cast<float>(t.n_p) / (t.full_circle ? 2 * pi : pi)) - t.offset, t.n_p);

@@ -88,7 +88,7 @@ HWY_INLINE V azimuth_bins(const RawTableView& t, V x, V y) {
   const V zero = hn::Zero(d);
   constexpr float pi = std::numbers::pi_v<float>;
   const V angle = first_quadrant_angle(hn::Mul(y, y), hn::Mul(x, x));
-  const auto opposite = hn::Xor(hn::Lt(x, zero), hn::Lt(y, zero));  // of the signs of x and y
+  const auto opposite = hn::Xor(hn::Lt(x, zero), hn::Lt(y, zero));               // of the signs of x and y
   const V half_turn = hn::IfThenElse(opposite, hn::Sub(set(pi), angle), angle);  // phi_d modulo pi
   if (!t.full_circle) return hn::Mul(half_turn, set(static_cast<float>(t.n_p) / pi));
   const V turn = hn::IfThenElse(hn::Lt(y, zero), hn::Add(half_turn, set(pi)), half_turn);
