@@ -6,6 +6,7 @@
 #include "stopwatch.h"
 #include "test_pairs.h"
 
+#include <optional>
 #include <utility>
 #include <variant>
 
@@ -13,10 +14,10 @@ namespace brdf::cli {
 namespace {
 
 /// The measurement as a renderer would hold it, which is in RGB.
-EvalSpeed raw_speed(const Measurement& m) {
-  if (m.channels.count != 3) return {};
+std::optional<peers::RawTable> raw_table(const Measurement& m) {
+  if (m.channels.count != 3) return std::nullopt;
   const auto* table = std::get_if<HalfDifferenceTable>(&m.table);
-  return eval_speed(peers::RawTable(table != nullptr ? *table : peers::resample_to_merl(m)));
+  return std::optional<peers::RawTable>(std::in_place, table != nullptr ? *table : peers::resample_to_merl(m));
 }
 
 bool same_values(const Material& a, const Material& b) {
@@ -50,7 +51,7 @@ BenchMaterial::BenchMaterial(const MaterialSource& source, int threads)
       threads_(threads),
       comparison_(source.rows(), source.channels().count, 1.0, threads),
       native_bytes_(4.0 * static_cast<double>(report(source.measurement()).numbers)),
-      raw_(raw_speed(source.measurement())) {}
+      raw_(raw_table(source.measurement())) {}
 
 BenchRow BenchMaterial::begin_row(std::uint64_t bytes) const {
   BenchRow row;
@@ -58,8 +59,11 @@ BenchRow BenchMaterial::begin_row(std::uint64_t bytes) const {
   row.bytes = bytes;
   row.ratio = static_cast<double>(source_.file_bytes()) / static_cast<double>(bytes);
   row.ratio_native = native_bytes_ / static_cast<double>(bytes);
-  row.raw_eval_ns = raw_.batch;
-  row.raw_eval_ns_scalar = raw_.scalar;
+  if (raw_) {  // beside each row, because a machine is not equally busy all the time
+    const EvalSpeed raw = eval_speed(*raw_);
+    row.raw_eval_ns = raw.batch;
+    row.raw_eval_ns_scalar = raw.scalar;
+  }
   row.simd = simd_target();
   row.threads = threads_;
   return row;
@@ -69,7 +73,7 @@ BenchRow BenchMaterial::measure_level(const EncodeResult& encoded, EvalLevel lev
   BenchRow row = begin_row(encoded.bytes.size());
   row.level = level;
   const Material m = decode_file(encoded.bytes, level, false, source_.path());
-  row.decode_us = 1e6 * median_seconds([&] { decode_file(encoded.bytes, level, false, source_.path()); });
+  row.decode_us = 1e6 * undisturbed_seconds([&] { decode_file(encoded.bytes, level, false, source_.path()); });
   row.resident_bytes = m.resident_bytes();
   measure_speed(m, row);
   row.errors = comparison_.score(batch_rows(m));

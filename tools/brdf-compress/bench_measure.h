@@ -9,6 +9,7 @@
 
 #include <brdf/encode.h>
 
+#include <optional>
 #include <vector>
 
 namespace brdf::cli {
@@ -38,7 +39,7 @@ class BenchMaterial {
   int threads_;
   Comparison comparison_;
   double native_bytes_;
-  EvalSpeed raw_;
+  std::optional<peers::RawTable> raw_;
 };
 
 }  // namespace brdf::cli

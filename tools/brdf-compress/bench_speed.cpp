@@ -33,7 +33,7 @@ class Pool {
   template <class Work>
   double nanoseconds(Work&& work) const {
     std::size_t next = 0;
-    const double seconds = median_seconds([&] {
+    const double seconds = undisturbed_seconds([&] {
       work(next * batch);
       next = (next + 1) % batches;
     });

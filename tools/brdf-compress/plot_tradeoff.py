@@ -15,7 +15,7 @@ import sys
 import matplotlib
 
 matplotlib.use("agg")
-from matplotlib import pyplot, ticker  # noqa: E402
+from matplotlib import patheffects, pyplot, ticker  # noqa: E402
 
 # (key, label, whether more is better)
 ERRORS = [("log_mae", "log_mae", False), ("psnr_env", "PSNR, environment (dB)", True),
@@ -77,7 +77,8 @@ def draw_panel(axes, rows, networks, x_key, error):
             for p in made:
                 if p.level == "balanced" or all(q.level != "balanced" for q in made):
                     axes.annotate(p.label, (p.x, p.y), xytext=(4, 5), textcoords="offset points", fontsize=8,
-                                  color="#333333", zorder=5)
+                                  color="#333333", zorder=5,
+                                  path_effects=[patheffects.withStroke(linewidth=2.5, foreground="white")])
         if networks:
             x = sum(row[x_key] for row in networks) / len(networks)
             axes.plot(x, reduce([row[y_key] for row in networks], more), "*", color=NEURAL, alpha=opacity, markersize=13,
@@ -105,7 +106,8 @@ def bytes_axis(axes, rows, networks):
 
 def ns_axis(axes, rows, networks):
     raw = [row["raw_eval_ns"] for row in rows if row["raw_eval_ns"]]
-    highest = max(row["eval_ns"] for row in rows + networks)
+    groups = list(settings(rows).values()) + ([networks] if networks else [])
+    highest = max(sum(row["eval_ns"] for row in group) / len(group) for group in groups)
     if raw:
         x = sum(raw) / len(raw)
         axes.axvline(x, color=RAW, linestyle=":", linewidth=1.5, zorder=1)

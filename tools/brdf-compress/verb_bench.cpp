@@ -205,7 +205,7 @@ Verb add_bench(CLI::App& program, const std::string& command_line) {
   add_reporting(*verb, o->reporting);
   verb->footer(
       preset_help() +
-      "\nns are per query, in batches of 4096 random pairs on one thread, median of repeats; 'sample' includes pdf and\n"
+      "\nns are per query, in batches of 4096 random pairs on one thread, lower quartile of repeats; 'sample' has pdf and\n"
       "weight; 'raw' is the measured table as float RGB, by a vectorised trilinear look-up. 'ratio' compares with the\n"
       "source file, 'native' with its numbers as float32. Errors are against the measured file, at the level of the row.\n"
       "--threads is for encoding and comparing.\n\n"
