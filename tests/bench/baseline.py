@@ -34,11 +34,11 @@ LIMITS = {
     "psnr_lights": ("less", 0.05, 0.25),
     "albedo_error": ("more", 0.02, 0.10),
     "bugs": ("more", 0, 0),
-    "eval_ns": ("times", 1.5, None),
-    "pdf_ns": ("times", 1.5, None),
-    "sample_ns": ("times", 1.5, None),
-    "eval_ns_scalar": ("times", 1.5, None),
-    "sample_ns_scalar": ("times", 1.5, None),
+    "eval_ns": ("times", 1.75, None),
+    "pdf_ns": ("times", 1.75, None),
+    "sample_ns": ("times", 1.75, None),
+    "eval_ns_scalar": ("times", 1.75, None),
+    "sample_ns_scalar": ("times", 1.75, None),
 }
 KEYS = ["material", "preset", "target", "eval_level"]
 

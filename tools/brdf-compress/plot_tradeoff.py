@@ -112,7 +112,7 @@ def ns_axis(axes, rows, networks):
         x = sum(raw) / len(raw)
         axes.axvline(x, color=RAW, linestyle=":", linewidth=1.5, zorder=1)
         highest = max(highest, x)
-    axes.set_xlim(0, 1.15 * highest)
+    axes.set_xlim(0, 1.25 * highest)
     axes.set_xlabel("ns per evaluation, batches on one thread")
 
 
