@@ -8,8 +8,9 @@ import subprocess
 from support.cli_harness import CliTest, compressed, folder, main, measured, program, run
 
 BENCH_KEYS = """material preset effort target eval_level bytes ratio ratio_native encode_s decode_us resident_bytes
-eval_ns eval_ns_scalar pdf_ns sample_ns sample_ns_scalar raw_eval_ns raw_eval_ns_scalar log_mae log_mae_p95 log_mae_max
-psnr_env psnr_lights albedo_error simd threads version bugs""".split()
+eval_ns eval_ns_scalar pdf_ns pdf_ns_scalar sample_ns sample_ns_scalar raw_eval_ns raw_eval_ns_scalar log_mae
+log_mae_0_60 log_mae_60_75 log_mae_75_85 log_mae_85_90 log_mae_p95 log_mae_max psnr_env psnr_lights albedo_error simd
+threads version bugs""".split()
 
 
 class Reports(CliTest):

@@ -1,5 +1,6 @@
 # SPDX-License-Identifier: Apache-2.0
-# Tests of the command line (tests/cli/*.sh, *.py) and of the source tree. Exit code 77 means skipped.
+# Tests of the command line (tests/cli/*.sh, *.py), the baseline of bench, and of the source tree. Exit code 77 means
+# skipped.
 find_package(Python3 REQUIRED COMPONENTS Interpreter)
 
 if(TARGET brdf-compress)
@@ -16,6 +17,11 @@ if(TARGET brdf-compress)
     set_tests_properties(cli.${name} PROPERTIES LABELS cli SKIP_RETURN_CODE 77
       ENVIRONMENT "${test_environment};PYTHONPATH=${CMAKE_CURRENT_SOURCE_DIR};PYTHONDONTWRITEBYTECODE=1")
   endforeach()
+endif()
+
+if(TARGET brdf-compress AND TARGET brdf-gonio)
+  add_test(NAME bench.baseline COMMAND "${Python3_EXECUTABLE}" "${CMAKE_CURRENT_SOURCE_DIR}/bench/baseline.py")
+  set_tests_properties(bench.baseline PROPERTIES LABELS bench RUN_SERIAL TRUE ENVIRONMENT "${test_environment}")
 endif()
 
 set(check_includes "${CMAKE_CURRENT_SOURCE_DIR}/support/check_includes.py")

@@ -35,9 +35,11 @@ std::vector<Figure> figures(bool against_raw) {
       {"pdf ns", [](const BenchRow& r) { return r.pdf_ns; }, tenths},
       {"sample ns", [](const BenchRow& r) { return r.sample_ns; }, tenths},
       {"scalar eval", [](const BenchRow& r) { return r.eval_ns_scalar; }, tenths},
+      {"scalar pdf", [](const BenchRow& r) { return r.pdf_ns_scalar; }, tenths},
       {"scalar sample", [](const BenchRow& r) { return r.sample_ns_scalar; }, tenths}};
   if (against_raw) {
     list.push_back({"raw ns", [](const BenchRow& r) { return r.raw_eval_ns; }, tenths});
+    list.push_back({"scalar raw", [](const BenchRow& r) { return r.raw_eval_ns_scalar; }, tenths});
     list.push_back({"times faster", [](const BenchRow& r) { return r.raw_eval_ns / r.eval_ns; }, tenths, true});
   }
   const std::vector<Figure> errors{
@@ -59,7 +61,7 @@ bool same_setting(const BenchRow& a, const BenchRow& b) {
 }
 
 std::vector<std::string> labels(const std::string& material, const BenchRow& row) {
-  return {material, row.preset, target_text(row), to_string(row.level)};
+  return {material, row.preset, target_text(row), row.level ? to_string(*row.level) : "-"};
 }
 
 /// Mean or worst of a column over rows of one setting.
@@ -104,9 +106,9 @@ Json bench_json(std::span<const BenchRow> rows) {
     Json row;
     row["material"] = r.material;
     row["preset"] = r.preset;
-    row["effort"] = r.effort;
+    row["effort"] = r.effort ? Json(*r.effort) : Json(nullptr);
     row["target"] = r.target ? Json(*r.target) : Json(nullptr);
-    row["eval_level"] = to_string(r.level);
+    row["eval_level"] = r.level ? Json(to_string(*r.level)) : Json(nullptr);
     row["bytes"] = r.bytes;
     row["ratio"] = r.ratio;
     row["ratio_native"] = r.ratio_native;
@@ -116,6 +118,7 @@ Json bench_json(std::span<const BenchRow> rows) {
     row["eval_ns"] = r.eval_ns;
     row["eval_ns_scalar"] = r.eval_ns_scalar;
     row["pdf_ns"] = r.pdf_ns;
+    row["pdf_ns_scalar"] = r.pdf_ns_scalar;
     row["sample_ns"] = r.sample_ns;
     row["sample_ns_scalar"] = r.sample_ns_scalar;
     row["raw_eval_ns"] = r.raw_eval_ns;
@@ -124,6 +127,7 @@ Json bench_json(std::span<const BenchRow> rows) {
     row["log_mae_0_60"] = r.errors.log_mae.band[0];
     row["log_mae_60_75"] = r.errors.log_mae.band[1];
     row["log_mae_75_85"] = r.errors.log_mae.band[2];
+    row["log_mae_85_90"] = r.errors.log_mae.band[3];
     row["log_mae_p95"] = r.errors.log_mae.p95;
     row["log_mae_max"] = r.errors.log_mae.max;
     row["psnr_env"] = r.errors.psnr_env;
@@ -144,7 +148,8 @@ std::string bench_csv(std::span<const BenchRow> rows) {
     std::vector<std::string> line;
     for (const auto& [key, value] : row.items()) {
       if (table.rows.empty()) table.header.push_back(key);
-      line.push_back(value.is_string() ? value.get<std::string>() : value.is_null() ? "" : value.dump());
+      const std::string text = value.is_string() ? value.get<std::string>() : value.dump();
+      line.push_back(text == "null" ? "" : text);  // also what JSON makes of a number that is not finite
     }
     table.rows.push_back(std::move(line));
   }

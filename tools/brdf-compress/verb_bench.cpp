@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "bench_measure.h"
+#include "bench_plots.h"
 #include "bench_report.h"
+#include "networks.h"
 #include "output_file.h"
 #include "progress_bar.h"
 #include "standard_output.h"
@@ -9,6 +11,8 @@
 
 #include <brdf/version.h>
 
+#include <algorithm>
+#include <filesystem>
 #include <memory>
 #include <optional>
 
@@ -16,14 +20,17 @@ namespace brdf::cli {
 namespace {
 
 struct Options {
-  std::vector<std::string> files, presets;
+  std::vector<std::string> files, presets, against;
+  std::vector<std::filesystem::path> networks;
   std::vector<std::uint64_t> sizes;
   std::vector<EvalLevel> levels{EvalLevel::balanced};
-  std::string against, csv, markdown, command_line;
+  std::string csv, markdown, plots, command_line;
   SamplePosition position = SamplePosition::edge;
   int threads = 1;
   bool force = false;
   Reporting reporting;
+
+  bool is_against(const char* peer) const { return std::ranges::find(against, peer) != against.end(); }
 };
 
 std::vector<BenchSetting> settings(const Options& o) {
@@ -41,7 +48,9 @@ std::vector<BenchSetting> settings(const Options& o) {
 /// Rows of all materials and settings; what fails is said and left out.
 class Runner {
  public:
-  explicit Runner(const Options& o) : o_(o), settings_(settings(o)), bar_(o.reporting) {}
+  explicit Runner(const Options& o) : o_(o), settings_(settings(o)), bar_(o.reporting) {
+    if (o.is_against("neural")) networks_ = Networks::open(o.networks);
+  }
 
   std::vector<BenchRow> run() {
     for (const std::string& file : o_.files) attempt([&] { material(file); });
@@ -66,6 +75,7 @@ class Runner {
         for (BenchRow& row : bench.measure(settings_[k], o_.levels)) rows_.push_back(std::move(row));
       });
     }
+    if (networks_) attempt([&] { rows_.push_back(bench.measure(networks_->find(source.measurement()))); });
   }
 
   template <class Work>
@@ -91,6 +101,7 @@ class Runner {
 
   const Options& o_;
   std::vector<BenchSetting> settings_;
+  std::optional<Networks> networks_;
   ProgressBar bar_;
   std::vector<BenchRow> rows_;
   std::size_t jobs_done_ = 0;
@@ -121,12 +132,15 @@ CLI::Validator each_of(const CLI::Validator& check) {
 ExitCode run(const Options& o) {
   for (const std::string* file : {&o.csv, &o.markdown})
     if (!file->empty() && *file != "-") check_output(*file, {}, o.force);
+  std::optional<BenchPlots> plots;
+  if (!o.plots.empty()) plots.emplace(o.plots, o.force);
   Runner runner(o);
   const std::vector<BenchRow> rows = runner.run();
   if (rows.empty()) return runner.first_failure();
-  const TextTable table = bench_table(rows, o.against == "raw");
+  const TextTable table = bench_table(rows, o.is_against("raw"));
   if (!o.csv.empty() && o.csv != "-") write_text(o.csv, bench_csv(rows), o.force);
   if (!o.markdown.empty()) write_text(o.markdown, markdown_document(o, table), o.force);
+  if (plots) plots->write(json_report("bench", bench_json(rows)));
   if (o.reporting.json) {
     print(json_report("bench", bench_json(rows)));
   } else {
@@ -166,26 +180,40 @@ Verb add_bench(CLI::App& program, const std::string& command_line) {
           "Evaluation level of every figure (default balanced)")
       ->check(CLI::IsMember({"fast", "balanced", "exact", "all"}))
       ->type_name("fast|balanced|exact|all");
-  verb->add_option("--against", o->against, "'raw' adds columns: how much faster than the measured table")
-      ->check(CLI::IsMember({"raw"}));
+  verb->add_option_function<std::string>(
+          "--against", [o](const std::string& text) { o->against = split_list(text); },
+          "Peers: 'raw' adds columns of how much faster than the measured table evaluation is, 'neural' a row of the\n"
+          "material's published network")
+      ->check(each_of(CLI::IsMember({"raw", "neural"})))
+      ->type_name("raw,neural");
+  verb->add_option("--networks", o->networks,
+                   "Networks for --against neural; may be repeated (default data/models/nbrdf_*.npz of $BRDF_SHARED or\n"
+                   "../shared)")
+      ->type_name("FILE.npz")
+      ->expected(1)
+      ->multi_option_policy(CLI::MultiOptionPolicy::TakeAll);
   verb->add_option("--csv", o->csv, "Also write the rows as CSV; - writes them to stdout instead of the table")
       ->type_name("FILE|-");
   verb->add_option("--markdown", o->markdown, "Also write the table as Markdown, with the command line that made it")
       ->type_name("FILE");
+  verb->add_option("--plots", o->plots,
+                   "Also write plots (SVG, PNG) of error against bytes and against ns per evaluation; needs matplotlib")
+      ->type_name("FOLDER");
   add_position(*verb, o->position);
   add_threads(*verb, o->threads);
   add_force(*verb, o->force);
   add_reporting(*verb, o->reporting);
   verb->footer(
       preset_help() +
-      "\nns are per query, in batches of 4096 random pairs on one thread, median of repeats; 'sample' includes pdf "
-      "and\n"
-      "weight. 'ratio' compares with the source file, 'native' with its numbers as float32. Errors are against the\n"
-      "measured file, at the level of the row. --threads is for encoding and comparing.\n\n"
+      "\nns are per query, in batches of 4096 random pairs on one thread, lower quartile of repeats; 'sample' has pdf and\n"
+      "weight; 'raw' is the measured table as float RGB, by a vectorised trilinear look-up. 'ratio' compares with the\n"
+      "source file, 'native' with its numbers as float32. Errors are against the measured file, at the level of the row.\n"
+      "--threads is for encoding and comparing.\n\n"
       "Examples:\n"
       "  brdf-compress bench gold.binary --against raw\n"
       "  brdf-compress bench *.binary --sizes 512,1024,2048 --eval all --csv sizes.csv\n"
-      "  brdf-compress bench *.bsdf --presets fast,medium --markdown table.md -f");
+      "  brdf-compress bench *.bsdf --presets fast,medium --markdown table.md -f\n"
+      "  brdf-compress bench *.bsdf --sizes 512,1024,2700 --against raw,neural --plots plots");
   return {verb, [o] { return run(*o); }};
 }
 
