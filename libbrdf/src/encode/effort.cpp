@@ -14,7 +14,7 @@ constexpr Preset preset_table[] = {
 
 constexpr EffortStep step_table[] = {
     //  effort lobes starts samples iter | bins, substeps | coeff | images | passes | variants | verify
-    {0, 2, 1, 1200, 15, 36, 20, 14, 1, 350, 0.0, 2, 1, 1, 1, 0.05},
+    {0, 2, 1, 1200, 15, 36, 20, 14, 1, 350, 0.0, 2, 1, 1, 1, 0.03},
     {25, 2, 2, 2500, 30, 44, 26, 18, 1, 600, 0.0, 3, 1, 1, 2, 0.1},
     {50, 3, 3, 4000, 40, 48, 28, 20, 2, 900, 0.02, 4, 2, 1, 5, 0.3},
     {75, 4, 4, 6000, 60, 60, 32, 24, 2, 1500, 0.08, 5, 5, 3, 8, 0.4},

@@ -84,14 +84,12 @@ void add_rows(ErrorModel& model, std::span<const double> rows, std::span<const d
     }
 }
 
-void add_environment(ErrorModel& model, const Measurement& m, const LobeSet& lobes, const metrics::QuerySet& queries,
+void add_environment(ErrorModel& model, const ImageSlopes& shown, const LobeSet& lobes, const metrics::QuerySet& queries,
                      const residual::Basis& basis, std::span<const residual::Frequency> order,
                      residual::ChannelTransform transform, double weight) {
   const metrics::ImageRows& image = queries.image[0];
-  const int channels = m.channels.count;
+  const int channels = lobes.channels;
   const auto n = static_cast<std::size_t>(channels);
-  const ImageSlopes shown = image_slopes(m, queries);
-  if (shown.slope.empty()) return;
 
   // rows of the operator: pixel values as linear functions of the coefficients (one for all channels) and their target
   std::vector<double> rows(image.pixels * model.size, 0.0), target(image.pixels * n, 0.0), l(n);
