@@ -30,6 +30,9 @@ struct Preset {
 /// fastest, fast, medium, thorough, exhaustive. The one table that code, help and documents use.
 std::span<const Preset> presets() noexcept;
 
+/// What each step of the effort scale turns on, as a table in Markdown; docs/effort.md holds it.
+std::string effort_table();
+
 struct EncodeOptions {
   int effort = 50;                                  ///< 0 to 100
   std::optional<std::uint64_t> target_size;         ///< bytes of the whole file, never exceeded

@@ -55,8 +55,8 @@ Asymmetry measure_asymmetry(const Measurement& m, double quality) {
   return sum;
 }
 
-std::string reciprocity_sentence(SymmetryMode mode, bool by_construction, bool reciprocal, bool lobes_alone, double asymmetry, double gain) {
-  if (by_construction) return "reciprocity: exact, as in the table, which stores phi_d modulo pi";
+std::string reciprocity_sentence(SymmetryMode mode, bool none, bool reciprocal, bool lobes_alone, double asymmetry, double gain) {
+  if (none) return "reciprocity: exact, as in the measurement";
   const std::string size = with_number("the measurement's asymmetry is log_mae %.3g", asymmetry);
   if (lobes_alone) return "reciprocity: exact, for lobes alone have no asymmetry; " + size;
   if (mode == SymmetryMode::enforce) return "reciprocity: enforced as asked, exactly; " + size + " and was averaged";

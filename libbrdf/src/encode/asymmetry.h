@@ -17,9 +17,9 @@ struct Asymmetry {
 /// `quality`: share of the pairs of directions at which log_mae is measured.
 Asymmetry measure_asymmetry(const Measurement& m, double quality);
 
-/// What became of reciprocity. `gain`: merit in dB of the best file that keeps odd harmonics over the best that does not;
+/// What became of reciprocity. `none`: the measurement has no asymmetry. `gain`: merit in dB of the best file that keeps odd harmonics over the best that does not;
 /// 0 where only one was tried.
-std::string reciprocity_sentence(SymmetryMode mode, bool by_construction, bool reciprocal, bool lobes_alone, double asymmetry, double gain);
+std::string reciprocity_sentence(SymmetryMode mode, bool none, bool reciprocal, bool lobes_alone, double asymmetry, double gain);
 
 std::string mirror_sentence(SymmetryMode mode, double asymmetry);
 

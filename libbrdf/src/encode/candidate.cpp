@@ -126,6 +126,15 @@ std::vector<Encoded> Candidate::encode_to_size(std::uint64_t bytes) const {
   };
   if (coarse < finest_step) spend(coarse + 1, 0.0, fitting.empty() ? 6.0 : 2.0);
   spend(coarse, fitting.empty() ? 0.0 : -2.5, fitting.empty() ? 6.0 : 0.0);
+  // steps whose sizes leap over the last bytes: their neighbours may not
+  const auto filled = [&] { return std::any_of(fitting.begin(), fitting.end(), [&](const Encoded& e) { return e.bytes.size() + std::max<std::uint64_t>(bytes / 50, 8) >= bytes; }); };
+  if (coarse < finest_step) {
+    for (const int step : {2, 3}) {
+      if (fitting.empty() || filled()) break;
+      spend(std::min(coarse + step, finest_step), 0.0, 2.0 + step);
+    }
+    if (coarse > 0 && !fitting.empty() && !filled()) spend(coarse - 1, -4.0, 0.0);
+  }
   std::stable_sort(fitting.begin(), fitting.end(), [](const Encoded& x, const Encoded& y) { return x.error < y.error; });
   return fitting;
 }

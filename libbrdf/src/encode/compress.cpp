@@ -27,6 +27,8 @@ using encode::EffortStep;
 /// Size of a file when nobody says otherwise: past it most materials gain little that an eye could see.
 constexpr std::uint64_t usual_size = 2048;
 constexpr std::uint64_t few_bytes = 160;       // below, lobes and residual compete for the same bytes
+constexpr int more_lobes = 1;                  // than the effort has, where they may be all that a file holds
+constexpr double asymmetry_quality = 0.05;
 constexpr double choosing_quality = 0.3;       // of the verification that tells candidates apart
 
 class Stages {
@@ -110,9 +112,12 @@ EncodeResult compress(const Measurement& m, const EncodeOptions& options, const 
   EncodeResult result;
   EncodeSummary& summary = result.summary;
 
+  const std::uint64_t size = options.target_size.value_or(usual_size);
   stages.at("fit", 0.0);
   auto start = Clock::now();
-  FitResult fit = fit_lobes(m, fit_options(effort, options.threads), [&](std::string_view stage, double done) {
+  FitOptions lobe_options = fit_options(effort, options.threads);
+  if (size < few_bytes) lobe_options.max_lobes += more_lobes;
+  FitResult fit = fit_lobes(m, lobe_options, [&](std::string_view stage, double done) {
     return !progress || progress(stage, 0.35 * done);
   });
   summary.seconds_fit = seconds_since(start);
@@ -120,9 +125,9 @@ EncodeResult compress(const Measurement& m, const EncodeOptions& options, const 
   stages.at("residual", 0.35);
   start = Clock::now();
   const auto progress_of_search = [&](double share) { stages.at("residual", 0.35 + 0.5 * share); };
-  const std::uint64_t size = options.target_size.value_or(usual_size);
   const double epsilon = encode::residual_epsilon(m);
-  const encode::Parities parities = encode::parities(m, options.reciprocity);
+  const encode::Asymmetry asymmetry = encode::measure_asymmetry(m, std::min(asymmetry_quality, effort.verify_quality));
+  const encode::Parities parities = encode::parities(m, options.reciprocity, asymmetry.reciprocity);
   // one verification tells candidates apart, a finer one has the last word; where they are the same they are one
   const double final_quality = options.target_error ? 1.0 : effort.verify_quality, coarse_quality = std::min(choosing_quality, effort.verify_quality);
   const encode::Verification verification(m, final_quality, options.threads);
@@ -164,9 +169,8 @@ EncodeResult compress(const Measurement& m, const EncodeOptions& options, const 
       }
       const int fewer = static_cast<int>(lobes.lobes.size()) - 1;
       if (size >= few_bytes || fewer < 1) break;
-      FitOptions smaller = fit_options(effort, options.threads);
-      smaller.max_lobes = fewer;
-      fit = fit_lobes(m, smaller);
+      lobe_options.max_lobes = fewer;
+      fit = fit_lobes(m, lobe_options);
     }
     if (best.bytes.empty())
       throw Error(ErrorCode::target_not_met, "compress: " + std::to_string(size) + " bytes cannot hold this material, the smallest file has " +
@@ -177,7 +181,6 @@ EncodeResult compress(const Measurement& m, const EncodeOptions& options, const 
   stages.at("verify", 0.85);
   start = Clock::now();
   encode::record_errors(best, verification, options.level, worth_of(options));
-  const encode::Asymmetry asymmetry = encode::measure_asymmetry(m, std::min(0.1, effort.verify_quality));
   summary.seconds_verify = seconds_since(start);
 
   count_bytes(best.bytes, summary);
@@ -189,7 +192,7 @@ EncodeResult compress(const Measurement& m, const EncodeOptions& options, const 
   summary.reciprocal = best.content.component.reciprocal;
   summary.reciprocity_asymmetry = asymmetry.reciprocity;
   summary.mirror_asymmetry = asymmetry.mirror;
-  summary.reciprocity = encode::reciprocity_sentence(options.reciprocity, !parities.one_way && options.reciprocity != SymmetryMode::enforce, summary.reciprocal,
+  summary.reciprocity = encode::reciprocity_sentence(options.reciprocity, asymmetry.reciprocity == 0, summary.reciprocal,
                                                      summary.refinements == 0, asymmetry.reciprocity, parity_gain);
   summary.mirror = encode::mirror_sentence(options.mirror, asymmetry.mirror);
   summary.errors = best.content.errors;

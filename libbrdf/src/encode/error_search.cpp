@@ -10,13 +10,14 @@
 #include <cstdio>
 #include <limits>
 #include <optional>
+#include <utility>
 
 namespace brdf::encode {
 namespace {
 
 constexpr int coarsest_step = 8, finest_step = 128;  // 2^3 to 2^-12
 constexpr double reserve = 1e-4;  // share of the target kept for rounding: batch and single-pair evaluation differ by less
-constexpr int calibrations = 5;
+constexpr int calibrations = 4;
 constexpr double tight = 0.01;    // a file this close to its target is the smallest of its kind
 
 /// A target as "at most so much", whichever way the metric counts.
@@ -74,6 +75,10 @@ class Ladder {
       if (cost(e) > limit) return {};
     }
     int low = coarsest_step, high = finest_step;
+    if (near_) {  // a limit that has moved by little: its step has, too
+      low = std::max(low, *near_ - 4);
+      high = std::min(high, *near_ + 4);
+    }
     std::optional<Encoded> found;
     while (low < high) {
       const int middle = (low + high) / 2;
@@ -87,12 +92,16 @@ class Ladder {
     }
     if (!found) {
       Encoded e = file(high, 0);
-      if (cost(e) > limit) return {};
+      if (cost(e) > limit) {
+        if (!std::exchange(near_, std::nullopt)) return {};
+        return smallest(limit, std::numeric_limits<std::uint64_t>::max());
+      }
       found = std::move(e);
     }
+    near_ = high;
     for (const int step : {high, std::min(high + 1, finest_step)}) {  // the same step, or a finer one, at a steeper price
       double cheap = 0, dear = step == high ? 1.0 : 2.0;
-      for (int i = 0; i < 4; ++i) {
+      for (int i = 0; i < 3; ++i) {
         const double price = (cheap + dear) / 2;
         Encoded e = file(step, price);
         if (cost(e) <= limit) {
@@ -113,6 +122,7 @@ class Ladder {
   const Aim& aim_;
   bool in_slices_;
   std::optional<residual::BasisCodes> table_;
+  std::optional<int> near_;  ///< step of the file found last
 };
 
 /// All sizes are open: from the recipes of a middling file to those of the largest, and more coefficients where a target asks.

@@ -7,6 +7,8 @@ namespace brdf::encode {
 namespace {
 
 constexpr std::uint64_t slices_from = 300;       // bytes: below, the ndf alone would take a quarter of the file
+constexpr double no_asymmetry = 1e-7;            // log_mae
+constexpr std::uint64_t fewest = 120;            // coefficients per channel that may be chosen from in the smallest file
 constexpr std::uint64_t everything_from = 6000;  // bytes: from here on a file may hold every number of the instrument
 
 /// In the order in which they are tried.
@@ -34,21 +36,24 @@ std::vector<residual::BasisCodes> table_variants(const residual::BasisCodes& bas
 
 }  // namespace
 
-Parities parities(const Measurement& m, SymmetryMode reciprocity) {
+Parities parities(const Measurement& m, SymmetryMode reciprocity, double asymmetry) {
   const auto* table = std::get_if<HalfDifferenceTable>(&m.table);
   const bool half_circle = table != nullptr && !table->full_circle;  // all that such a table has
+  // odd harmonics of data that have none are rounding errors
+  if (reciprocity == SymmetryMode::automatic && asymmetry < no_asymmetry) return {false, true};
   return {!half_circle && reciprocity != SymmetryMode::enforce, half_circle || reciprocity != SymmetryMode::keep};
 }
 
 std::vector<Recipe> recipes(const SourceData& source, const std::vector<residual::BasisCodes>& bases, Parities parities, std::uint64_t bytes) {
   const EffortStep& effort = source.effort;
+  const int coefficients = static_cast<int>(std::min<std::uint64_t>(static_cast<std::uint64_t>(effort.coefficients), fewest + 2 * bytes));
   const bool slices = parities.one_way && bytes >= slices_from && slice_frame(source.measurement, 8).has_value();
   // a measurement with slices of its own rarely gains from more than one basis besides
   const std::size_t kept = slices ? std::max<std::size_t>(bases.size() / 2, 1) : bases.size();
   std::vector<Recipe> out;
   for (const bool reciprocal : {false, true}) {
     if (!(reciprocal ? parities.reciprocal : parities.one_way)) continue;
-    for (std::size_t i = 0; i < std::min(kept, bases.size()); ++i) out.push_back({bases[i], reciprocal, {}, effort.coefficients});
+    for (std::size_t i = 0; i < std::min(kept, bases.size()); ++i) out.push_back({bases[i], reciprocal, {}, coefficients});
   }
   if (!slices) return out;
   for (int i = 0; i < effort.slice_variants; ++i) {

@@ -26,8 +26,9 @@ struct Parities {
   bool one_way = false, reciprocal = false;
 };
 
-/// What a measurement and the options leave open. A table of half a circle is reciprocal whatever is asked for.
-Parities parities(const Measurement& m, SymmetryMode reciprocity);
+/// What a measurement and the options leave open. A table of half a circle is reciprocal whatever is asked for; so are, unless
+/// asked otherwise, data without `asymmetry` (log_mae, asymmetry.h).
+Parities parities(const Measurement& m, SymmetryMode reciprocity, double asymmetry);
 
 /// For a file of so many bytes, the likeliest of each kind first: half/difference one way, then reciprocal, then slices.
 std::vector<Recipe> recipes(const SourceData& source, const std::vector<residual::BasisCodes>& bases, Parities parities, std::uint64_t bytes);

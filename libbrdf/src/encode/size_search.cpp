@@ -13,8 +13,11 @@ namespace {
 constexpr std::uint64_t least_residual = 18;  // bytes: directory, checksum, errors, basis, an empty layer
 constexpr double as_good = 0.002;  // dB of merit: less than what the queries resolve
 
-constexpr double large_share = 0.97;  // of the bytes: files that use as many are rivals, and none is "smaller"
-constexpr std::size_t runners_up = 4; // files of the chosen recipe that are measured
+constexpr double much_smaller = 0.8;           // of the bytes: from here on a file that is as good is worth having
+constexpr std::size_t most_measured = 4;       // files of the chosen recipe
+
+/// What a file of at most `bytes` has at least, unless no further byte lowers the error.
+std::uint64_t least_size(std::uint64_t bytes) noexcept { return bytes - std::min(bytes, std::max<std::uint64_t>(bytes / 50, 8)); }
 
 /// `e` with the balanced table that was chosen for `chosen`.
 Encoded with_basis_of(const Encoded& chosen, Encoded e) {
@@ -65,18 +68,21 @@ Found encode_to_size(const SourceData& source, const Search& search, std::uint64
   });
 
   found.reciprocity_was_open = search.parities.one_way && search.parities.reciprocal;
-  const std::vector<Encoded>* smaller = nullptr;
+  std::vector<Encoded>* smaller = nullptr;
   for (const Group& group : groups(ways)) {
     std::size_t best = group.last;
     for (std::size_t i = group.first; i < group.last; ++i)
       if (!tried[i].empty() && (best == group.last || tried[i].front().error < tried[best].front().error)) best = i;
     if (best == group.last) continue;
-    Encoded e = tried[best].front();
+    // rivals are the files that use the bytes up, as promised; when there is none, what comes nearest to it
+    std::vector<Encoded>& files = tried[best];
+    const auto rivals = std::stable_partition(files.begin(), files.end(), [&](const Encoded& e) { return e.bytes.size() >= least_size(bytes); });
+    const std::size_t measured = std::clamp<std::size_t>(static_cast<std::size_t>(rivals - files.begin()), 1, most_measured);
+    Encoded e = files.front();
     ErrorReport report = ways[best].slices ? choose_table(e, source.effort.table_variants, search.level, search.verification)
                                            : search.verification.score(e.bytes, search.level);
-    for (std::size_t i = 1; i < std::min(tried[best].size(), runners_up); ++i) {
-      Encoded other = with_basis_of(e, tried[best][i]);
-      if (static_cast<double>(other.bytes.size()) < large_share * static_cast<double>(bytes)) break;
+    for (std::size_t i = 1; i < measured; ++i) {
+      Encoded other = with_basis_of(e, files[i]);
       const ErrorReport r = search.verification.score(other.bytes, search.level);
       if (merit(r) <= merit(report)) continue;
       report = r;
@@ -94,8 +100,9 @@ Found encode_to_size(const SourceData& source, const Search& search, std::uint64
   if (smaller == nullptr) return found;
 
   // past the point where the table or the lobes' reach limits the error, bytes buy nothing
+  std::stable_sort(smaller->begin(), smaller->end(), [](const Encoded& a, const Encoded& b) { return a.bytes.size() > b.bytes.size(); });
   for (const Encoded& candidate : *smaller) {
-    if (static_cast<double>(candidate.bytes.size()) > large_share * static_cast<double>(found.file.bytes.size())) continue;
+    if (static_cast<double>(candidate.bytes.size()) > much_smaller * static_cast<double>(found.file.bytes.size())) continue;
     Encoded e = with_basis_of(found.file, candidate);
     const ErrorReport report = search.verification.score(e.bytes, search.level);
     if (merit(report) < found.merit - as_good) break;
