@@ -94,7 +94,8 @@ Encoded Candidate::encode(int step_code, double lambda_scale, int layers) const 
 }
 
 std::vector<Encoded> Candidate::encode_to_size(std::uint64_t bytes) const {
-  const int layers = layer_count(bytes);
+  // in slices the lobes have no part in the value, and a first layer that is too coarse is worse than they are
+  const int layers = std::max(layer_count(bytes) - (code_.slices.empty() ? 0 : 1), 1);
   std::vector<Encoded> fitting;
   const auto fits = [&](int code, double scale) {
     Encoded e = encode(code, scale, layers);
