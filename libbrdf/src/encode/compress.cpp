@@ -134,20 +134,38 @@ EncodeResult compress(const Measurement& m, const EncodeOptions& options, const 
   std::optional<encode::Verification> coarse;
   if (coarse_quality < final_quality) coarse.emplace(m, coarse_quality, options.threads);
   const encode::Verification& choosing = coarse ? *coarse : verification;
-  const auto search_for = [&](const LobeSet& lobes, const auto& run) {
+  const auto search_for = [&](const LobeSet& lobes, const EffortStep& step, const encode::Verification& telling_apart, const auto& run) {
     const container::Content frame = encode::frame_of(m, lobes, options.store_provenance);
-    const std::vector<residual::BasisCodes> bases = encode::basis_variants(lobes, epsilon, effort.variants);
-    const encode::SourceData source(m, frame, effort);
-    return run(source, encode::Search{bases, parities, options.level, choosing, options.threads});
+    const std::vector<residual::BasisCodes> bases = encode::basis_variants(lobes, epsilon, step.variants);
+    const encode::SourceData source(m, frame, step);
+    return run(source, encode::Search{bases, parities, options.level, telling_apart, options.threads, step.effort == effort.effort});
   };
 
   Encoded best;
   double parity_gain = 0;  // dB by which the best file of one parity beats that of the other
   if (options.target_error) {
-    best = search_for(container::quantise_lobes(fit.lobes), [&](const encode::SourceData& source, const encode::Search& search) {
-      return encode::encode_to_error(source, search, *options.target_error, verification, progress_of_search);
-    });
-    summary.fit = std::move(fit.summary);
+    // every lower step has its say, so that more effort is never a larger file
+    std::optional<Error> unmet;
+    for (const EffortStep& step : encode::effort_steps()) {
+      if (step.effort > effort.effort) break;
+      const bool last = step.effort == effort.effort;
+      FitResult lower = last ? std::move(fit) : fit_lobes(m, fit_options(step, options.threads));
+      std::optional<encode::Verification> own;
+      if (!last) own.emplace(m, std::min(choosing_quality, step.verify_quality), options.threads);
+      try {
+        Encoded e = search_for(container::quantise_lobes(lower.lobes), step, own ? *own : choosing, [&](const encode::SourceData& source, const encode::Search& search) {
+          return encode::encode_to_error(source, search, *options.target_error, verification, progress_of_search);
+        });
+        if (best.bytes.empty() || e.bytes.size() < best.bytes.size()) {
+          best = std::move(e);
+          summary.fit = std::move(lower.summary);
+        }
+      } catch (const Error& e) {
+        if (e.code() != ErrorCode::target_not_met) throw;
+        unmet = e;
+      }
+    }
+    if (best.bytes.empty()) throw *unmet;
   } else {
     double merit = 0;
     std::uint64_t smallest = UINT64_MAX;
@@ -157,7 +175,7 @@ EncodeResult compress(const Measurement& m, const EncodeOptions& options, const 
       const std::uint64_t alone = encode::lobes_only(encode::frame_of(m, lobes, options.store_provenance)).bytes.size();
       smallest = std::min(smallest, alone);
       if (alone <= size) {
-        encode::Found found = search_for(lobes, [&](const encode::SourceData& source, const encode::Search& search) {
+        encode::Found found = search_for(lobes, effort, choosing, [&](const encode::SourceData& source, const encode::Search& search) {
           return encode::encode_to_size(source, search, size, progress_of_search);
         });
         if (best.bytes.empty() || found.merit > merit) {

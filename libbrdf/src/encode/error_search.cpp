@@ -185,7 +185,7 @@ Encoded encode_to_error(const SourceData& source, const Search& search, const Er
       done(++tried / static_cast<double>(ways.size()) * 0.8);
     }
     // more coefficients in half/difference coordinates, for a target that the effort's number does not reach
-    for (int more = 2 * source.effort.coefficients; !found && more < 2 * Candidate::largest_matrix; more *= 2) {
+    for (int more = 2 * source.effort.coefficients; search.exhaustive && !found && more < 2 * Candidate::largest_matrix; more *= 2) {
       for (const Recipe& recipe : ways) {
         if (recipe.slices || recipe.basis.kappa_h != search.bases.front().kappa_h) continue;
         Recipe larger = recipe;

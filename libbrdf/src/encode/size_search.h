@@ -27,6 +27,7 @@ struct Search {
   EvalLevel level;
   const Verification& verification;  ///< of a quality at which candidates are told apart
   int threads;
+  bool exhaustive = true;            ///< more coefficients than the effort has, where a target error asks for them
 };
 
 /// Tries every recipe and chooses by measuring the decoded files; a smaller file that is as good wins. `done` hears of each
