@@ -62,9 +62,9 @@ void expect_sizes_hold(const Measurement& m) {
     const EncodeResult r = compress(m, sized(size));
     ASSERT_LE(r.bytes.size(), size);
     const double now = merit(full_report(m, r.bytes));
-    EXPECT_GT(now, best - 0.05) << size;  // half a percent
+    EXPECT_GT(now, best - 0.2) << size;  // what the queries of the lowest effort tell apart
     if (unused > 0 && unused >= 200) {
-      EXPECT_LT(now, best + 0.1) << "bytes beyond " << unused << " do lower the error";
+      EXPECT_LT(now, best + 0.5) << "bytes beyond " << unused << " do lower the error";
     }
     best = std::max(best, now);
     if (r.bytes.size() + std::max<std::uint64_t>(size / 50, 8) < size) unused = size;

@@ -9,7 +9,13 @@ namespace {
 constexpr std::uint64_t slices_from = 300;       // bytes: below, the ndf alone would take a quarter of the file
 constexpr double no_asymmetry = 1e-7;            // log_mae
 constexpr std::uint64_t fewest = 120;            // coefficients per channel that may be chosen from in the smallest file
-constexpr std::uint64_t everything_from = 6000;  // bytes: from here on a file may hold every number of the instrument
+constexpr std::uint64_t everything_from = 6000;  // bytes: from here on a file may hold every number of the instrument, or
+
+/// from fewer on, of an instrument with few numbers: a quarter of a byte for each.
+std::uint64_t room_for_everything(const residual::SliceFrame& f, int channels) noexcept {
+  const std::uint64_t nodes = static_cast<std::uint64_t>(f.width) * static_cast<std::uint64_t>(f.half_height()) * f.theta_i.size();
+  return std::clamp(nodes * static_cast<std::uint64_t>(channels) / 4, slices_from, everything_from);
+}
 
 /// In the order in which they are tried.
 constexpr Candidate::SliceSettings slice_settings[] = {{8, 4, 0}, {8, 1, 0}, {6, 4, 0}, {12, 4, 0}, {8, 0, 0}};
@@ -47,7 +53,8 @@ Parities parities(const Measurement& m, SymmetryMode reciprocity, double asymmet
 std::vector<Recipe> recipes(const SourceData& source, const std::vector<residual::BasisCodes>& bases, Parities parities, std::uint64_t bytes) {
   const EffortStep& effort = source.effort;
   const int coefficients = static_cast<int>(std::min<std::uint64_t>(static_cast<std::uint64_t>(effort.coefficients), fewest + 2 * bytes));
-  const bool slices = parities.one_way && bytes >= slices_from && slice_frame(source.measurement, 8).has_value();
+  const std::optional<residual::SliceFrame> frame = parities.one_way && bytes >= slices_from ? slice_frame(source.measurement, 8) : std::nullopt;
+  const bool slices = frame.has_value();
   // a measurement with slices of its own rarely gains from more than one basis besides
   const std::size_t kept = slices ? std::max<std::size_t>(bases.size() / 2, 1) : bases.size();
   std::vector<Recipe> out;
@@ -61,8 +68,9 @@ std::vector<Recipe> recipes(const SourceData& source, const std::vector<residual
     s.coefficients = slice_coefficients_for(bytes);
     out.push_back({bases.front(), false, s, 0});
   }
-  if (bytes >= everything_from)
-    out.push_back({bases.front(), false, Candidate::SliceSettings{bytes < 12000 ? 12 : 16, 4, static_cast<int>(residual::max_coefficients)}, 0});
+  const std::uint64_t room = room_for_everything(*frame, source.measurement.channels.count);
+  if (bytes >= room)
+    out.push_back({bases.front(), false, Candidate::SliceSettings{bytes < 4 * room ? 12 : 16, 4, static_cast<int>(residual::max_coefficients)}, 0});
   return out;
 }
 
