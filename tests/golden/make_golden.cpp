@@ -126,7 +126,7 @@ std::vector<NamedContent> make_contents() {
     const Measurement m = test::slice_measurement({4, 8, 24, 16, 0.4});
     Content c = frame(m, false);
     c.lobes = container::quantise_lobes({3, {{LobeKind::ggx, 0.4, 1, {0.6, 0.65, 0.7}}}});
-    const auto candidate = encode::Candidate::in_slices(m, c, c.residual.basis, {8, 4, 160}, encode::effort_step(0), {});
+    const auto candidate = encode::Candidate::in_slices(encode::SourceData(m, c, encode::effort_step(0)), c.residual.basis, {8, 4, 160});
     all.push_back({"rgb-slices", candidate.value().encode(112, 0.05, 3).content});
   }
   return all;

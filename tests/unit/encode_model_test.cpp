@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 // The quadratic error model against sums over its cells.
 #include "encode/bins.h"
+#include "encode/dense_kernels.h"
 #include "encode/distortion.h"
 #include "encode/error_model.h"
 #include "encode/quantiser.h"
@@ -186,7 +187,8 @@ TEST(EnvironmentModel, AddsASumOfSquares) {
   model.size = order.size();
   model.gram.assign(model.size * model.size, 0.0);
   model.b.assign(3, std::vector<double>(model.size, 0.0));
-  add_environment(model, m, lobes, metrics::build_queries(0.02), basis, order, ChannelTransform::opponent, 1.0);
+  const metrics::QuerySet queries = metrics::build_queries(0.02);
+  add_environment(model, image_slopes(m, queries), lobes, queries, basis, order, ChannelTransform::opponent, 1.0);
   EXPECT_GT(model.constant, 0);
   const auto n = static_cast<Eigen::Index>(model.size);
   const Eigen::MatrixXd g = Eigen::Map<const Eigen::MatrixXd>(model.gram.data(), n, n);
@@ -196,6 +198,32 @@ TEST(EnvironmentModel, AddsASumOfSquares) {
   const double best = model_error(model, solve_coefficients(model));
   EXPECT_GE(best, 0);
   EXPECT_LT(best, 0.1 * model.constant);  // the basis explains a smooth residual
+}
+
+// Tiles of any width, rows and columns left over included.
+TEST(DenseKernels, OuterProductsAreTheirSums) {
+  test::Lcg random(5);
+  for (const std::size_t n : {1U, 3U, 8U, 13U, 37U}) {
+    for (const std::size_t count : {1U, 5U, 130U}) {
+      std::vector<double> rows(n * count), gram(n * n), expected;
+      for (double& v : rows) v = random.unit() - 0.5;
+      for (std::size_t i = 0; i < n; ++i)
+        for (std::size_t j = 0; j <= i; ++j) gram[i * n + j] = gram[j * n + i] = random.unit();
+      expected = gram;
+      for (std::size_t p = 0; p < count; ++p)
+        for (std::size_t i = 0; i < n; ++i)
+          for (std::size_t j = i; j < n; ++j) expected[i * n + j] += 0.7 * rows[p * n + i] * rows[p * n + j];
+      add_outer_products(gram.data(), n, rows.data(), count, 0.7);
+      for (std::size_t i = 0; i < n; ++i)
+        for (std::size_t j = i; j < n; ++j) {
+          ASSERT_EQ(gram[i * n + j], expected[i * n + j]) << "to the last bit: one order of one sum";
+          ASSERT_EQ(gram[j * n + i], gram[i * n + j]);
+        }
+      std::vector<double> sum(n, 1.0);
+      add_scaled(sum.data(), rows.data(), -0.3, n);
+      for (std::size_t i = 0; i < n; ++i) ASSERT_EQ(sum[i], 1.0 + -0.3 * rows[i]);
+    }
+  }
 }
 
 }  // namespace

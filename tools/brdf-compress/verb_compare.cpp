@@ -24,7 +24,11 @@ Json json_row(const Options& o, const MaterialSource& candidate, const ErrorRepo
   row["reference"] = o.reference;
   row["candidate"] = o.candidate;
   row["eval_level"] = candidate.is_compressed() ? Json(to_string(o.source.level)) : Json(nullptr);
-  row["bytes"] = candidate.file_bytes();
+  row["bytes"] = candidate.is_compressed() ? candidate.bytes().size() : candidate.file_bytes();
+  if (candidate.is_compressed()) {
+    row["refinements_read"] = candidate.material().info().refinements_read;
+    row["refinements_total"] = candidate.material().info().refinements_total;
+  }
   add_errors(row, report);
   return row;
 }
@@ -49,7 +53,9 @@ std::string table(const ErrorReport& r) {
 }
 
 ExitCode run(const Options& o) {
-  const MaterialSource reference = MaterialSource::open(o.reference, o.source);
+  SourceOptions whole = o.source;
+  whole.prefix.reset();  // it is the candidate that is cut
+  const MaterialSource reference = MaterialSource::open(o.reference, whole);
   const MaterialSource candidate = MaterialSource::open(o.candidate, o.source);
   const int channels = reference.channels().count;
   if (candidate.channels().count != channels) {
@@ -74,6 +80,7 @@ Verb add_compare(CLI::App& program) {
   verb->add_option("REF", o->reference, "The reference, a measured or .brdfc file")->required();
   verb->add_option("CAND", o->candidate, "The candidate, a measured or .brdfc file")->required();
   add_eval_level(*verb, o->source.level);
+  add_prefix(*verb, o->source.prefix);
   add_position(*verb, o->source.position);
   add_threads(*verb, o->threads);
   add_reporting(*verb, o->reporting);

@@ -33,7 +33,7 @@ std::vector<Part> parts_of(const MaterialSource& candidate, EvalLevel level) {
   const std::vector<std::uint64_t> ends = refinement_boundaries(candidate.bytes());
   const MaterialInfo& info = candidate.material().info();
   std::uint64_t before = 0;
-  for (std::size_t k = 0; k < ends.size(); ++k) {
+  for (std::size_t k = 0; k < ends.size() && ends[k] <= candidate.bytes().size(); ++k) {
     const EvalLevel recorded = k == 0 ? EvalLevel::fast : level == EvalLevel::fast ? EvalLevel::balanced : level;
     const RecordedError* found = nullptr;
     for (const RecordedError& e : info.errors)
@@ -93,7 +93,9 @@ Json json_rows(const std::vector<Part>& parts, const std::vector<ErrorBand>& ban
 }
 
 ExitCode run(const Options& o) {
-  const MaterialSource reference = MaterialSource::open(o.reference, o.source);
+  SourceOptions whole = o.source;
+  whole.prefix.reset();  // it is the candidate that is cut
+  const MaterialSource reference = MaterialSource::open(o.reference, whole);
   const MaterialSource candidate = MaterialSource::open(o.candidate, o.source);
   const int channels = reference.channels().count;
   if (candidate.channels().count != channels)
@@ -123,6 +125,7 @@ Verb add_where(CLI::App& program) {
   verb->add_option("REF", o->reference, "The reference, a measured or .brdfc file")->required();
   verb->add_option("CAND", o->candidate, "The candidate, usually a .brdfc file")->required();
   add_eval_level(*verb, o->source.level);
+  add_prefix(*verb, o->source.prefix);
   add_position(*verb, o->source.position);
   add_threads(*verb, o->threads);
   add_reporting(*verb, o->reporting);

@@ -3,9 +3,9 @@
 #pragma once
 
 #include "container/content.h"
-#include "encode/effort.h"
 #include "encode/error_model.h"
 #include "encode/quantiser.h"
+#include "encode/source_data.h"
 
 #include <cstdint>
 #include <optional>
@@ -19,13 +19,13 @@ struct Encoded {
   std::vector<std::byte> bytes;
   double error = 0;   ///< of the error model
   int step_code = 0;
+  double lambda_scale = 1;
 };
 
 class Candidate {
  public:
-  /// In half/difference coordinates. `frame`: all that a file says but its residual.
-  static Candidate half_difference(const Measurement& m, const container::Content& frame, const residual::BasisCodes& basis,
-                                   bool reciprocal, const EffortStep& effort, const metrics::QuerySet& queries);
+  /// In half/difference coordinates.
+  static Candidate half_difference(const SourceData& source, const residual::BasisCodes& basis, bool reciprocal, int coefficients);
 
   /// How a residual in slices is set up.
   struct SliceSettings {
@@ -36,16 +36,14 @@ class Candidate {
   static constexpr int largest_matrix = 4096;
 
   /// In the measurement's own slices; none for measurements that have none. `basis` is that of the balanced table.
-  static std::optional<Candidate> in_slices(const Measurement& m, const container::Content& frame,
-                                            const residual::BasisCodes& basis, const SliceSettings& settings,
-                                            const EffortStep& effort, const metrics::QuerySet& queries);
+  static std::optional<Candidate> in_slices(const SourceData& source, const residual::BasisCodes& basis, const SliceSettings& settings);
 
   /// Quantised with one step.
   Encoded encode(int step_code, double lambda_scale, int layers) const;
 
-  /// The file with the smallest error of at most `bytes` (its layers included); empty bytes when even the coarsest
-  /// step is larger.
-  Encoded encode_to_size(std::uint64_t bytes) const;
+  /// Files of at most `bytes` (layers included) that a search came by, by increasing error of the model. Nothing when even the
+  /// coarsest step is larger.
+  std::vector<Encoded> encode_to_size(std::uint64_t bytes) const;
 
  private:
   Candidate(container::Content frame, residual::ResidualCode code, std::vector<residual::Frequency> order, int passes)

@@ -1,4 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
+#include "encode/dense_kernels.h"
 #include "encode/error_model.h"
 #include "residual/order_extent.h"
 
@@ -72,36 +73,23 @@ ImageSlopes image_slopes(const Measurement& m, const metrics::QuerySet& queries)
 void add_rows(ErrorModel& model, std::span<const double> rows, std::span<const double> targets,
               const std::vector<double>& channel_matrix, double scale) {
   const std::size_t count = rows.size() / model.size, n = model.b.size();
-  constexpr std::size_t block = 8;  // rows at a time, so that the matrix is read once per block
-  for (std::size_t p0 = 0; p0 < count; p0 += block) {
-    const std::size_t p1 = std::min(count, p0 + block);
-    for (std::size_t i = 0; i < model.size; ++i) {
-      double* out = model.gram.data() + i * model.size;
-      for (std::size_t p = p0; p < p1; ++p) {
-        const double* a = rows.data() + p * model.size;
-        const double s = scale * a[i];
-        for (std::size_t j = 0; j < model.size; ++j) out[j] += s * a[j];
-      }
-    }
-  }
+  add_outer_products(model.gram.data(), model.size, rows.data(), count, scale);
   for (std::size_t t = 0; t < n; ++t)
     for (std::size_t p = 0; p < count; ++p) {
       double y = 0;
       for (std::size_t c = 0; c < n; ++c) y += channel_matrix[t * n + c] * targets[p * n + c];
       model.constant += scale * y * y;
       const double* a = rows.data() + p * model.size;
-      for (std::size_t j = 0; j < model.size; ++j) model.b[t][j] += scale * y * a[j];
+      add_scaled(model.b[t].data(), a, scale * y, model.size);
     }
 }
 
-void add_environment(ErrorModel& model, const Measurement& m, const LobeSet& lobes, const metrics::QuerySet& queries,
+void add_environment(ErrorModel& model, const ImageSlopes& shown, const LobeSet& lobes, const metrics::QuerySet& queries,
                      const residual::Basis& basis, std::span<const residual::Frequency> order,
                      residual::ChannelTransform transform, double weight) {
   const metrics::ImageRows& image = queries.image[0];
-  const int channels = m.channels.count;
+  const int channels = lobes.channels;
   const auto n = static_cast<std::size_t>(channels);
-  const ImageSlopes shown = image_slopes(m, queries);
-  if (shown.slope.empty()) return;
 
   // rows of the operator: pixel values as linear functions of the coefficients (one for all channels) and their target
   std::vector<double> rows(image.pixels * model.size, 0.0), target(image.pixels * n, 0.0), l(n);

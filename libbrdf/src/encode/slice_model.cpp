@@ -133,11 +133,9 @@ ErrorModel slice_diagonal(const SliceSamples& s, std::span<const double> weights
   return model;
 }
 
-void add_environment(ErrorModel& model, const Measurement& m, const SliceSamples& s, const residual::SliceFrame& frame,
+void add_environment(ErrorModel& model, const ImageSlopes& image, const SliceSamples& s, const residual::SliceFrame& frame,
                      const metrics::QuerySet& queries, std::span<const residual::Frequency> order,
                      residual::ChannelTransform transform, double weight) {
-  const ImageSlopes image = image_slopes(m, queries);
-  if (image.slope.empty()) return;
   const slices::SliceMap map(frame);
   const metrics::ImageRows& rows = queries.image[0];
   const std::size_t n = s.channels;
