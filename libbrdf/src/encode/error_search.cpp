@@ -184,6 +184,13 @@ Encoded encode_to_error(const SourceData& source, const Search& search, const Er
       try_recipe(recipe);
       done(++tried / static_cast<double>(ways.size()) * 0.8);
     }
+    // near the lossless end the rounding of the ndf is what is left
+    if (!found)
+      for (Recipe finer : ways)
+        if (finer.slices && finer.slices->coefficients == static_cast<int>(residual::max_coefficients)) {
+          finer.slices->ndf_step = residual::max_ndf_step;
+          try_recipe(finer);
+        }
     // more coefficients in half/difference coordinates, for a target that the effort's number does not reach
     for (int more = 2 * source.effort.coefficients; search.exhaustive && !found && more < 2 * Candidate::largest_matrix; more *= 2) {
       for (const Recipe& recipe : ways) {
