@@ -83,7 +83,7 @@ TEST(Targets, FortyEightBytesHoldALobe) {
   }
 }
 
-TEST(Targets, ErrorsAreMetOnAllQueries) {
+TEST(Targets, ErrorsAreMetOnAllQueriesSlow) {
   const Measurement m = test::bumpy_measurement();
   for (const ErrorTarget target : {ErrorTarget{Metric::log_mae, 0.003}, ErrorTarget{Metric::psnr_env, 40}}) {
     const EncodeResult r = compress(m, aimed(target));
