@@ -90,18 +90,49 @@ TEST(Symmetry, WhatTheMeasurementHasIsSaid) {
   EXPECT_NE(r.summary.reciprocity.find("as in the measurement"), std::string::npos);
 }
 
-TEST(Symmetry, AMirrorAsymmetryThatIsLostIsSaid) {
-  Measurement m = test::small_measurement({24, 12, 24}, 3, [](const Vec3d& wi, const Vec3d& wo, std::span<double> f) {
+Measurement asymmetric_in_a_mirror() {
+  return test::small_measurement({24, 12, 24}, 3, [](const Vec3d& wi, const Vec3d& wo, std::span<double> f) {
     const double turn = (wi.x * wo.y - wi.y * wo.x) * (wi.z - wo.z);  // reciprocal, and odd in the mirror
     for (double& v : f) v = 0.3 + 0.2 * turn;
   });
-  for (const SymmetryMode mode : {SymmetryMode::automatic, SymmetryMode::keep, SymmetryMode::enforce}) {
-    const EncodeResult r = compressed(m, SymmetryMode::automatic, mode, 400);
-    EXPECT_GT(r.summary.mirror_asymmetry, 1e-4);
-    EXPECT_NE(r.summary.mirror.find(mode == SymmetryMode::keep ? "cannot be kept" : mode == SymmetryMode::enforce ? "enforced" : "averaged"),
-              std::string::npos) << r.summary.mirror;
-    if (mode != SymmetryMode::keep) expect_equal_to_the_last_bit(r, mirrored);
+}
+
+TEST(Symmetry, AMirrorAsymmetryIsKeptWhereItIsAskedForOrWorthIt) {
+  const Measurement m = asymmetric_in_a_mirror();
+  const EncodeResult even = compressed(m, SymmetryMode::automatic, SymmetryMode::enforce, 400);
+  EXPECT_GT(even.summary.mirror_asymmetry, 1e-4);
+  EXPECT_NE(even.summary.mirror.find("enforced"), std::string::npos) << even.summary.mirror;
+  expect_equal_to_the_last_bit(even, mirrored);
+  for (const SymmetryMode mode : {SymmetryMode::keep, SymmetryMode::automatic}) {
+    EncodeOptions o;
+    o.effort = 50;
+    o.target_size = 400;
+    o.mirror = mode;
+    const EncodeResult kept = compress(m, o);
+    EXPECT_NE(kept.summary.mirror.find("kept"), std::string::npos) << kept.summary.mirror;
+    expect_equal_to_the_last_bit(kept, exchanged);
+    const Material material = Material::decode(kept.bytes);
+    EXPECT_FALSE(material.info().mirror_symmetric);
+    EXPECT_TRUE(material.info().reciprocal);
+    EXPECT_LT(kept.summary.errors.back().log_mae, 0.3 * even.summary.errors.back().log_mae);
+    // on the right side: f = 0.3 + 0.2 turn
+    const double z = 0.9, r = std::sqrt(1 - z * z), low = 0.4, s = std::sqrt(1 - low * low);
+    const Vec3f wi{static_cast<float>(r), 0, static_cast<float>(z)};
+    for (const double side : {1.0, -1.0}) {
+      const Vec3f wo{0, static_cast<float>(side * s), static_cast<float>(low)};
+      float f[3];
+      material.eval(wi, wo, f);
+      EXPECT_NEAR(f[0], 0.3 + 0.2 * side * r * s * (z - low), 0.01);
+    }
   }
+}
+
+TEST(Symmetry, AMirrorAsymmetryThatCannotBeKeptIsSaid) {
+  const Measurement m = test::small_measurement({24, 12, 48, true}, 3, [](const Vec3d& wi, const Vec3d& wo, std::span<double> f) {
+    for (double& v : f) v = 0.3 + 0.2 * (wi.x * wo.y - wi.y * wo.x) * wi.z + 0.25 * wi.z * wi.z * wo.z;
+  });
+  const EncodeResult r = compressed(m, SymmetryMode::keep, SymmetryMode::keep);
+  EXPECT_NE(r.summary.mirror.find("cannot be kept"), std::string::npos) << r.summary.mirror;
 }
 
 }  // namespace

@@ -67,11 +67,15 @@ std::string reciprocity_sentence(SymmetryMode mode, bool none, bool reciprocal, 
   return "reciprocity: asymmetry kept" + (gain > 0 ? with_number(", which is worth %.2f dB at this size", gain) : std::string()) + "; " + size;
 }
 
-std::string mirror_sentence(SymmetryMode mode, double asymmetry) {
-  if (asymmetry < negligible) return "mirror: exact, as in the measurement";
-  const std::string size = with_number("asymmetry of log_mae %.3g", asymmetry);
-  if (mode == SymmetryMode::keep) return "mirror: cannot be kept, the format holds no asymmetry of this kind; a measured " + size + " was averaged";
-  return "mirror: " + std::string(mode == SymmetryMode::enforce ? "enforced as asked, exactly" : "averaged, exactly") + "; the measured " + size + " is lost";
+std::string mirror_sentence(SymmetryMode mode, bool kept, bool lobes_alone, double asymmetry, double gain) {
+  if (asymmetry < negligible && !kept) return "mirror: exact, as in the measurement";
+  const std::string size = with_number("the measurement's asymmetry is log_mae %.3g", asymmetry);
+  if (kept) return "mirror: asymmetry kept" + (gain > 0 ? with_number(", which is worth %.2f dB at this size", gain) : std::string()) + "; " + size;
+  if (lobes_alone) return "mirror: exact, for lobes alone have no asymmetry; " + size;
+  if (mode == SymmetryMode::enforce) return "mirror: enforced as asked, exactly; " + size + " and was averaged";
+  if (mode == SymmetryMode::keep) return "mirror: cannot be kept for data of this kind; " + size + " and was averaged";
+  return "mirror: enforced, exactly, since the asymmetry was not worth its bytes" +
+         (gain < 0 ? with_number(" (keeping it would cost %.2f dB)", -gain) : std::string()) + "; " + size;
 }
 
 }  // namespace brdf::encode

@@ -21,6 +21,7 @@ Asymmetry measure_asymmetry(const Measurement& m, double quality);
 /// 0 where only one was tried.
 std::string reciprocity_sentence(SymmetryMode mode, bool none, bool reciprocal, bool lobes_alone, double asymmetry, double gain);
 
-std::string mirror_sentence(SymmetryMode mode, double asymmetry);
+/// What became of mirror symmetry. `kept`: the file holds an asymmetry; `gain` as above.
+std::string mirror_sentence(SymmetryMode mode, bool kept, bool lobes_alone, double asymmetry, double gain);
 
 }  // namespace brdf::encode

@@ -40,19 +40,19 @@ Encoded lobes_only(const container::Content& frame) {
   return e;
 }
 
-Candidate Candidate::half_difference(const SourceData& source, const residual::BasisCodes& codes, bool reciprocal, int coefficients) {
+Candidate Candidate::half_difference(const SourceData& source, const residual::BasisCodes& codes, residual::Azimuth azimuth, int coefficients) {
   residual::ResidualCode code;
   code.basis = codes;
-  code.reciprocal = reciprocal;
+  code.azimuth = azimuth;
   code.channels = source.measurement.channels.count;
-  Candidate c(source.frame, code, residual::coefficient_order(residual::order_shapes[codes.shape], reciprocal, static_cast<std::uint32_t>(coefficients)),
+  Candidate c(source.frame, code, residual::coefficient_order(residual::order_shapes[codes.shape], residual::even_only(azimuth), static_cast<std::uint32_t>(coefficients)),
               source.effort.passes);
   const residual::Basis basis = residual::basis_of(codes);
   const residual::ChannelTransform transform = source.frame.component.transform;
   const WeightedBins& cells = source.bins(codes);
-  c.model_ = cell_model(cells.bins, cells.weights, basis, c.order_, transform);
+  c.model_ = cell_model(cells.bins, cells.weights, basis, azimuth, c.order_, transform);
   if (!source.image().slope.empty())
-    add_environment(c.model_, source.image(), source.frame.lobes, source.queries(), basis, c.order_, transform, MetricMix{}.environment);
+    add_environment(c.model_, source.image(), source.frame.lobes, source.queries(), basis, azimuth, c.order_, transform, MetricMix{}.environment);
   c.start_ = solve_coefficients(c.model_);
   return c;
 }
@@ -85,10 +85,10 @@ Encoded Candidate::encode(int step_code, double lambda_scale, int layers) const 
   e.content = frame_;
   e.step_code = step_code;
   e.lambda_scale = lambda_scale;
-  const Quantised q = quantise(model_, start_, order_, code_.reciprocal, {residual::step_of(step_code), lambda_scale, passes_});
+  const Quantised q = quantise(model_, start_, order_, residual::even_only(code_.azimuth), {residual::step_of(step_code), lambda_scale, passes_});
   e.error = q.error;
   e.content.residual = make_layers(q, code_, step_code, layers);
-  e.content.component.reciprocal = code_.reciprocal || e.content.residual.empty();
+  container::set_symmetries(e.content.component, e.content.residual);
   e.bytes = container::pack(e.content);
   return e;
 }

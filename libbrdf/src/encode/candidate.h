@@ -25,7 +25,7 @@ struct Encoded {
 class Candidate {
  public:
   /// In half/difference coordinates.
-  static Candidate half_difference(const SourceData& source, const residual::BasisCodes& basis, bool reciprocal, int coefficients);
+  static Candidate half_difference(const SourceData& source, const residual::BasisCodes& basis, residual::Azimuth azimuth, int coefficients);
 
   /// How a residual in slices is set up.
   struct SliceSettings {

@@ -127,7 +127,7 @@ EncodeResult compress(const Measurement& m, const EncodeOptions& options, const 
   const auto progress_of_search = [&](double share) { stages.at("residual", 0.35 + 0.5 * share); };
   const double epsilon = encode::residual_epsilon(m);
   const encode::Asymmetry asymmetry = encode::measure_asymmetry(m, std::min(asymmetry_quality, effort.verify_quality));
-  const encode::Parities parities = encode::parities(m, options.reciprocity, asymmetry.reciprocity);
+  const encode::Azimuths azimuths = encode::azimuths(m, options.reciprocity, options.mirror, asymmetry, effort);
   // one verification tells candidates apart, a finer one has the last word; where they are the same they are one
   const double final_quality = options.target_error ? 1.0 : effort.verify_quality, coarse_quality = std::min(choosing_quality, effort.verify_quality);
   const encode::Verification verification(m, final_quality, options.threads);
@@ -138,11 +138,11 @@ EncodeResult compress(const Measurement& m, const EncodeOptions& options, const 
     const container::Content frame = encode::frame_of(m, lobes, options.store_provenance);
     const std::vector<residual::BasisCodes> bases = encode::basis_variants(lobes, epsilon, step.variants);
     const encode::SourceData source(m, frame, step);
-    return run(source, encode::Search{bases, parities, options.level, telling_apart, options.threads, step.effort == effort.effort});
+    return run(source, encode::Search{bases, azimuths, options.level, telling_apart, options.threads, step.effort == effort.effort});
   };
 
   Encoded best;
-  double parity_gain = 0;  // dB by which the best file of one parity beats that of the other
+  double reciprocity_gain = 0, mirror_gain = 0;  // dB of keeping the asymmetry
   if (options.target_error) {
     // every lower step has its say, so that more effort is never a larger file
     std::optional<Error> unmet;
@@ -180,7 +180,8 @@ EncodeResult compress(const Measurement& m, const EncodeOptions& options, const 
         });
         if (best.bytes.empty() || found.merit > merit) {
           merit = found.merit;
-          parity_gain = found.reciprocity_was_open ? found.one_way - found.reciprocal : 0.0;
+          reciprocity_gain = found.gain(residual::Azimuth::one_way, residual::Azimuth::symmetric);
+          mirror_gain = found.gain(residual::Azimuth::reciprocal, residual::Azimuth::symmetric);
           best = std::move(found.file);
           summary.fit = std::move(fit.summary);
         }
@@ -211,8 +212,8 @@ EncodeResult compress(const Measurement& m, const EncodeOptions& options, const 
   summary.reciprocity_asymmetry = asymmetry.reciprocity;
   summary.mirror_asymmetry = asymmetry.mirror;
   summary.reciprocity = encode::reciprocity_sentence(options.reciprocity, asymmetry.reciprocity == 0, summary.reciprocal,
-                                                     summary.refinements == 0, asymmetry.reciprocity, parity_gain);
-  summary.mirror = encode::mirror_sentence(options.mirror, asymmetry.mirror);
+                                                     summary.refinements == 0, asymmetry.reciprocity, reciprocity_gain);
+  summary.mirror = encode::mirror_sentence(options.mirror, !best.content.component.mirror_symmetric, summary.refinements == 0, asymmetry.mirror, mirror_gain);
   summary.errors = best.content.errors;
   result.bytes = std::move(best.bytes);
   stages.at("done", 1.0);

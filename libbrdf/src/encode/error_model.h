@@ -27,7 +27,7 @@ struct ErrorModel {
 /// The diagonal (per cell) part. Exact for the cells: products of cosines are sums of cosines, so the whole matrix follows
 /// from transforms of the weights and no basis function is ever tabulated over the cells.
 ErrorModel cell_model(const Bins& bins, std::span<const double> weights, const residual::Basis& basis,
-                      std::span<const residual::Frequency> order, residual::ChannelTransform transform);
+                      residual::Azimuth azimuth, std::span<const residual::Frequency> order, residual::ChannelTransform transform);
 
 /// What an image under the environment shows: f at its rows, and the slope of the display curve per unit of light at its
 /// pixels, [row or pixel][channel]. No slopes when the material is black.
@@ -38,7 +38,7 @@ ImageSlopes image_slopes(const Measurement& m, const metrics::QuerySet& queries)
 
 /// Adds the image under an environment: errors add up over the lights before they are seen.
 void add_environment(ErrorModel& model, const ImageSlopes& shown, const LobeSet& lobes, const metrics::QuerySet& queries,
-                     const residual::Basis& basis, std::span<const residual::Frequency> order,
+                     const residual::Basis& basis, residual::Azimuth azimuth, std::span<const residual::Frequency> order,
                      residual::ChannelTransform transform, double weight);
 
 /// Adds scale * (row . a - target)^2 for rows of `model.size` numbers; targets [row][channel] before the channel transform.

@@ -129,9 +129,9 @@ class Ladder {
 std::vector<Recipe> ways_to_any_size(const SourceData& source, const Search& search) {
   constexpr std::uint64_t middling = 2048, large = 32768;
   std::vector<Recipe> all;
-  for (const Recipe& r : recipes(source, search.bases, search.parities, middling))
+  for (const Recipe& r : recipes(source, search.bases, search.azimuths, middling))
     if (r.slices) all.push_back(r);
-  for (const Recipe& r : recipes(source, search.bases, search.parities, large)) {
+  for (const Recipe& r : recipes(source, search.bases, search.azimuths, large)) {
     if (r.slices && r.slices->coefficients == static_cast<int>(residual::max_coefficients)) all.push_back(r);
     if (!r.slices) all.push_back(r);
   }

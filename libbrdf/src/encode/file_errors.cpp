@@ -44,7 +44,7 @@ void record_errors(Encoded& e, const Verification& verification, EvalLevel level
     e.content.errors.push_back({static_cast<int>(i), EvalLevel::balanced, balanced.log_mae.all, balanced.psnr_env});
     e.content.errors.push_back({static_cast<int>(i), EvalLevel::exact, exact.log_mae.all, exact.psnr_env});
   }
-  e.content.component.reciprocal = e.content.residual.reciprocal || layers.empty();
+  container::set_symmetries(e.content.component, e.content.residual);
   e.bytes = container::pack(e.content);
 }
 

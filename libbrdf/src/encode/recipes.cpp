@@ -8,6 +8,7 @@ namespace {
 
 constexpr std::uint64_t slices_from = 300;       // bytes: below, the ndf alone would take a quarter of the file
 constexpr double no_asymmetry = 1e-7;            // log_mae
+constexpr int quick_variants = 1;                // bases of an effort that has no time for a second azimuth
 constexpr std::uint64_t fewest = 120;            // coefficients per channel that may be chosen from in the smallest file
 constexpr std::uint64_t everything_from = 6000;  // bytes: from here on a file may hold every number of the instrument, or
 
@@ -42,41 +43,48 @@ std::vector<residual::BasisCodes> table_variants(const residual::BasisCodes& bas
 
 }  // namespace
 
-Parities parities(const Measurement& m, SymmetryMode reciprocity, double asymmetry) {
+Azimuths azimuths(const Measurement& m, SymmetryMode reciprocity, SymmetryMode mirror, const Asymmetry& asymmetry, const EffortStep& effort) {
+  using residual::Azimuth;
   const auto* table = std::get_if<HalfDifferenceTable>(&m.table);
-  const bool half_circle = table != nullptr && !table->full_circle;  // all that such a table has
+  if (table != nullptr && !table->full_circle) {  // half a circle is all that such a table has
+    if (mirror == SymmetryMode::keep) return {Azimuth::reciprocal};
+    const bool open = mirror == SymmetryMode::automatic && asymmetry.mirror >= no_asymmetry && effort.variants > quick_variants;
+    return open ? Azimuths{Azimuth::symmetric, Azimuth::reciprocal} : Azimuths{Azimuth::symmetric};
+  }
+  if (reciprocity == SymmetryMode::enforce) return {Azimuth::symmetric};
+  if (reciprocity == SymmetryMode::keep) return {Azimuth::one_way};
   // odd harmonics of data that have none are rounding errors
-  if (reciprocity == SymmetryMode::automatic && asymmetry < no_asymmetry) return {false, true};
-  return {!half_circle && reciprocity != SymmetryMode::enforce, half_circle || reciprocity != SymmetryMode::keep};
+  return asymmetry.reciprocity < no_asymmetry ? Azimuths{Azimuth::symmetric} : Azimuths{Azimuth::one_way, Azimuth::symmetric};
 }
 
-std::vector<Recipe> recipes(const SourceData& source, const std::vector<residual::BasisCodes>& bases, Parities parities, std::uint64_t bytes) {
+std::vector<Recipe> recipes(const SourceData& source, const std::vector<residual::BasisCodes>& bases, const Azimuths& azimuths, std::uint64_t bytes) {
   const EffortStep& effort = source.effort;
   const int coefficients = static_cast<int>(std::min<std::uint64_t>(static_cast<std::uint64_t>(effort.coefficients), fewest + 2 * bytes));
-  const std::optional<residual::SliceFrame> frame = parities.one_way && bytes >= slices_from ? slice_frame(source.measurement, 8) : std::nullopt;
+  const bool one_way = azimuths.front() == residual::Azimuth::one_way;
+  const std::optional<residual::SliceFrame> frame = one_way && bytes >= slices_from ? slice_frame(source.measurement, 8) : std::nullopt;
   const bool slices = frame.has_value();
   // a measurement with slices of its own rarely gains from more than one basis besides
   const std::size_t kept = slices ? std::max<std::size_t>(bases.size() / 2, 1) : bases.size();
   std::vector<Recipe> out;
-  for (const bool reciprocal : {false, true}) {
-    if (!(reciprocal ? parities.reciprocal : parities.one_way)) continue;
-    for (std::size_t i = 0; i < std::min(kept, bases.size()); ++i) out.push_back({bases[i], reciprocal, {}, coefficients});
+  for (const residual::Azimuth azimuth : azimuths) {
+    const std::size_t tried = azimuth == residual::Azimuth::reciprocal && azimuths.size() > 1 ? std::max<std::size_t>(kept / 2, 1) : kept;
+    for (std::size_t i = 0; i < std::min(tried, bases.size()); ++i) out.push_back({bases[i], azimuth, {}, coefficients});
   }
   if (!slices) return out;
   for (int i = 0; i < effort.slice_variants; ++i) {
     Candidate::SliceSettings s = slice_settings[i];
     s.coefficients = slice_coefficients_for(bytes);
-    out.push_back({bases.front(), false, s, 0});
+    out.push_back({bases.front(), residual::Azimuth::one_way, s, 0});
   }
   const std::uint64_t room = room_for_everything(*frame, source.measurement.channels.count);
   if (bytes >= room)
-    out.push_back({bases.front(), false, Candidate::SliceSettings{bytes < 4 * room ? 12 : 16, 4, static_cast<int>(residual::max_coefficients)}, 0});
+    out.push_back({bases.front(), residual::Azimuth::one_way, Candidate::SliceSettings{bytes < 4 * room ? 12 : 16, 4, static_cast<int>(residual::max_coefficients)}, 0});
   return out;
 }
 
 std::optional<Candidate> make_candidate(const SourceData& source, const Recipe& recipe) {
   if (recipe.slices) return Candidate::in_slices(source, recipe.basis, *recipe.slices);
-  return Candidate::half_difference(source, recipe.basis, recipe.reciprocal, recipe.coefficients);
+  return Candidate::half_difference(source, recipe.basis, recipe.azimuth, recipe.coefficients);
 }
 
 ErrorReport choose_table(Encoded& e, int count, EvalLevel level, const Verification& verification) {

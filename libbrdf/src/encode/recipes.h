@@ -2,6 +2,7 @@
 // The ways to write a material that an effort tries.
 #pragma once
 
+#include "encode/asymmetry.h"
 #include "encode/candidate.h"
 #include "encode/verification.h"
 #include "encode/source_data.h"
@@ -16,22 +17,20 @@ namespace brdf::encode {
 
 struct Recipe {
   residual::BasisCodes basis;                        ///< in slices: of the balanced table
-  bool reciprocal = false;
+  residual::Azimuth azimuth = residual::Azimuth::one_way;
   std::optional<Candidate::SliceSettings> slices;    ///< none: half/difference coordinates
   int coefficients = 0;                              ///< of half/difference coordinates
 };
 
-/// Which parities of phi_d may be tried.
-struct Parities {
-  bool one_way = false, reciprocal = false;
-};
+/// Functions of phi_d that may be tried, the usual one first; the others are tried with half of the bases.
+using Azimuths = std::vector<residual::Azimuth>;
 
 /// What a measurement and the options leave open. A table of half a circle is reciprocal whatever is asked for; so are, unless
-/// asked otherwise, data without `asymmetry` (log_mae, asymmetry.h).
-Parities parities(const Measurement& m, SymmetryMode reciprocity, double asymmetry);
+/// asked otherwise, data without asymmetry. Only such a table can be asymmetric in a mirror and be kept so.
+Azimuths azimuths(const Measurement& m, SymmetryMode reciprocity, SymmetryMode mirror, const Asymmetry& asymmetry, const EffortStep& effort);
 
-/// For a file of so many bytes, the likeliest of each kind first: half/difference one way, then reciprocal, then slices.
-std::vector<Recipe> recipes(const SourceData& source, const std::vector<residual::BasisCodes>& bases, Parities parities, std::uint64_t bytes);
+/// For a file of so many bytes, the likeliest of each kind first: half/difference, by azimuth, then slices.
+std::vector<Recipe> recipes(const SourceData& source, const std::vector<residual::BasisCodes>& bases, const Azimuths& azimuths, std::uint64_t bytes);
 
 /// None when the measurement has no slices.
 std::optional<Candidate> make_candidate(const SourceData& source, const Recipe& recipe);

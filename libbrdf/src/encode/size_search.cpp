@@ -34,7 +34,7 @@ struct Group {
 std::vector<Group> groups(const std::vector<Recipe>& recipes) {
   std::vector<Group> out;
   for (std::size_t i = 0; i < recipes.size(); ++i) {
-    const bool joins = i > 0 && !recipes[i].slices && recipes[i].reciprocal == recipes[i - 1].reciprocal;
+    const bool joins = i > 0 && !recipes[i].slices && recipes[i].azimuth == recipes[i - 1].azimuth;
     if (joins)
       out.back().last = i + 1;
     else
@@ -54,7 +54,7 @@ Found encode_to_size(const SourceData& source, const Search& search, std::uint64
 
   if (bytes < found.file.bytes.size() + least_residual) return found;
 
-  const std::vector<Recipe> ways = recipes(source, search.bases, search.parities, bytes);
+  const std::vector<Recipe> ways = recipes(source, search.bases, search.azimuths, bytes);
   std::vector<std::vector<Encoded>> tried(ways.size());
   std::mutex mutex;
   std::size_t ended = 0;
@@ -67,7 +67,6 @@ Found encode_to_size(const SourceData& source, const Search& search, std::uint64
     done(static_cast<double>(++ended) / static_cast<double>(ways.size()));
   });
 
-  found.reciprocity_was_open = search.parities.one_way && search.parities.reciprocal;
   std::vector<Encoded>* smaller = nullptr;
   for (const Group& group : groups(ways)) {
     std::size_t best = group.last;
@@ -89,8 +88,8 @@ Found encode_to_size(const SourceData& source, const Search& search, std::uint64
       e = std::move(other);
     }
     const double worth = merit(report);
-    double& of_parity = ways[best].reciprocal ? found.reciprocal : found.one_way;
-    of_parity = std::max(of_parity, worth);
+    double& of_azimuth = found.of_azimuth[static_cast<std::size_t>(ways[best].azimuth)];
+    of_azimuth = std::max(of_azimuth, worth);
     if (worth <= found.merit + as_good) continue;
     found.merit = worth;
     found.report = report;

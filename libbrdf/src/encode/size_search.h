@@ -7,6 +7,7 @@
 
 #include <cstdint>
 #include <functional>
+#include <array>
 #include <vector>
 
 namespace brdf::encode {
@@ -16,14 +17,19 @@ struct Found {
   Encoded file;
   double merit = -1e9;
   ErrorReport report;
-  bool reciprocity_was_open = false;       ///< both parities were tried
-  double one_way = -1e9, reciprocal = -1e9;  ///< merit of the best file of each parity
+  std::array<double, 3> of_azimuth{-1e9, -1e9, -1e9};  ///< merit of the best file of each residual::Azimuth that was tried
+
+  /// Merit that keeping an asymmetry brings, in dB; 0 where only one of both was tried.
+  double gain(residual::Azimuth kept, residual::Azimuth averaged) const noexcept {
+    const double a = of_azimuth[static_cast<std::size_t>(kept)], b = of_azimuth[static_cast<std::size_t>(averaged)];
+    return a > -1e9 && b > -1e9 ? a - b : 0.0;
+  }
 };
 
 /// What a search at one level needs besides its source.
 struct Search {
   const std::vector<residual::BasisCodes>& bases;  ///< at least one, the usual one first
-  Parities parities;
+  const Azimuths& azimuths;
   EvalLevel level;
   const Verification& verification;  ///< of a quality at which candidates are told apart
   int threads;

@@ -111,7 +111,7 @@ ErrorModel slice_model(const SliceSamples& s, std::span<const double> weights, s
   }
   residual::Basis no_windows;
   no_windows.window_h = no_windows.window_d = 0;
-  return cell_model(bins, w, no_windows, order, transform);
+  return cell_model(bins, w, no_windows, residual::Azimuth::one_way, order, transform);
 }
 
 ErrorModel slice_diagonal(const SliceSamples& s, std::span<const double> weights, std::span<const residual::Frequency> order,
