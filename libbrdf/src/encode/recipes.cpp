@@ -67,7 +67,7 @@ std::vector<Recipe> recipes(const SourceData& source, const std::vector<residual
   const std::size_t kept = slices ? std::max<std::size_t>(bases.size() / 2, 1) : bases.size();
   std::vector<Recipe> out;
   for (const residual::Azimuth azimuth : azimuths) {
-    const std::size_t tried = azimuth == residual::Azimuth::reciprocal && azimuths.size() > 1 ? std::max<std::size_t>(kept / 2, 1) : kept;
+    const std::size_t tried = azimuth == residual::Azimuth::reciprocal && azimuths.size() > 1 ? std::max<std::size_t>(kept / 3, 1) : kept;
     for (std::size_t i = 0; i < std::min(tried, bases.size()); ++i) out.push_back({bases[i], azimuth, {}, coefficients});
   }
   if (!slices) return out;

@@ -22,7 +22,7 @@ struct Recipe {
   int coefficients = 0;                              ///< of half/difference coordinates
 };
 
-/// Functions of phi_d that may be tried, the usual one first; the others are tried with half of the bases.
+/// Functions of phi_d that may be tried, the usual one first; the second one is tried with a third of the bases.
 using Azimuths = std::vector<residual::Azimuth>;
 
 /// What a measurement and the options leave open. A table of half a circle is reciprocal whatever is asked for; so are, unless
