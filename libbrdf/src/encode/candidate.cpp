@@ -1,10 +1,12 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "encode/candidate.h"
 
+#include "encode/basis_choice.h"
 #include "encode/bins.h"
 #include "encode/distortion.h"
 #include "encode/layers.h"
 #include "encode/slice_model.h"
+#include "encode/transform_choice.h"
 
 #include <brdf/version.h>
 
@@ -22,9 +24,7 @@ container::Content frame_of(const Measurement& m, const LobeSet& lobes, bool sto
   container::Content c;
   c.component.channels = m.channels;
   c.component.reciprocal = true;  // lobes are symmetric to the last bit
-  c.component.transform = m.channels.count == 3 ? residual::ChannelTransform::opponent
-                          : m.channels.count == 1 ? residual::ChannelTransform::identity
-                                                  : residual::ChannelTransform::cosine;
+  c.component.transform = decorrelating_transform(m, lobes, residual_epsilon(m));
   c.lobes = lobes;
   if (store_provenance) {
     c.provenance = m.provenance;
