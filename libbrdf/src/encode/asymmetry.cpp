@@ -11,8 +11,6 @@
 namespace brdf::encode {
 namespace {
 
-constexpr double negligible = 1e-7;  // log_mae: rounding of the source
-
 Vec3d mirrored(const Vec3d& w) noexcept { return {w.x, -w.y, w.z}; }
 
 std::string with_number(const char* format, double value) {
@@ -68,7 +66,7 @@ std::string reciprocity_sentence(SymmetryMode mode, bool none, bool reciprocal, 
 }
 
 std::string mirror_sentence(SymmetryMode mode, bool kept, bool lobes_alone, double asymmetry, double gain) {
-  if (asymmetry < negligible && !kept) return "mirror: exact, as in the measurement";
+  if (asymmetry < negligible_asymmetry && !kept) return "mirror: exact, as in the measurement";
   const std::string size = with_number("the measurement's asymmetry is log_mae %.3g", asymmetry);
   if (kept) return "mirror: asymmetry kept" + (gain > 0 ? with_number(", which is worth %.2f dB at this size", gain) : std::string()) + "; " + size;
   if (lobes_alone) return "mirror: exact, for lobes alone have no asymmetry; " + size;

@@ -9,6 +9,9 @@
 
 namespace brdf::encode {
 
+/// Below it an asymmetry is rounding of the source (log_mae).
+inline constexpr double negligible_asymmetry = 1e-7;
+
 /// log_mae between the measurement and its average with its mirror image, and with the exchange of the directions.
 struct Asymmetry {
   double reciprocity = 0, mirror = 0;

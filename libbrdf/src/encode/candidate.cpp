@@ -1,7 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "encode/candidate.h"
 
-#include "encode/basis_choice.h"
 #include "encode/bins.h"
 #include "encode/distortion.h"
 #include "encode/layers.h"
@@ -20,11 +19,11 @@ constexpr int finest_step = 128;  // 2^-12: below it the table's half floats rou
 
 }  // namespace
 
-container::Content frame_of(const Measurement& m, const LobeSet& lobes, bool store_provenance) {
+container::Content frame_of(const Measurement& m, const LobeSet& lobes, double epsilon, bool store_provenance) {
   container::Content c;
   c.component.channels = m.channels;
   c.component.reciprocal = true;  // lobes are symmetric to the last bit
-  c.component.transform = decorrelating_transform(m, lobes, residual_epsilon(m));
+  c.component.transform = decorrelating_transform(m, lobes, epsilon);
   c.lobes = lobes;
   if (store_provenance) {
     c.provenance = m.provenance;
@@ -128,7 +127,7 @@ std::vector<Encoded> Candidate::encode_to_size(std::uint64_t bytes) const {
   if (coarse < finest_step) spend(coarse + 1, 0.0, fitting.empty() ? 6.0 : 2.0);
   spend(coarse, fitting.empty() ? 0.0 : -2.5, fitting.empty() ? 6.0 : 0.0);
   // steps whose sizes leap over the last bytes: their neighbours may not
-  const auto filled = [&] { return std::any_of(fitting.begin(), fitting.end(), [&](const Encoded& e) { return e.bytes.size() + std::max<std::uint64_t>(bytes / 50, 8) >= bytes; }); };
+  const auto filled = [&] { return std::any_of(fitting.begin(), fitting.end(), [&](const Encoded& e) { return e.bytes.size() >= least_size(bytes); }); };
   if (coarse < finest_step) {
     for (const int step : {2, 3}) {
       if (fitting.empty() || filled()) break;

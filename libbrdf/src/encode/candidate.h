@@ -7,6 +7,7 @@
 #include "encode/quantiser.h"
 #include "encode/source_data.h"
 
+#include <algorithm>
 #include <cstdint>
 #include <optional>
 #include <vector>
@@ -21,6 +22,9 @@ struct Encoded {
   int step_code = 0;
   double lambda_scale = 1;
 };
+
+/// What a file of at most `bytes` has at least, unless no further byte lowers the error.
+inline std::uint64_t least_size(std::uint64_t bytes) noexcept { return bytes - std::min(bytes, std::max<std::uint64_t>(bytes / 50, 8)); }
 
 class Candidate {
  public:
@@ -57,8 +61,8 @@ class Candidate {
   std::vector<std::vector<double>> start_;
 };
 
-/// All that a file says but its residual; `store_provenance` adds where it comes from.
-container::Content frame_of(const Measurement& m, const LobeSet& lobes, bool store_provenance);
+/// All that a file says but its residual; `epsilon` is that of the basis, `store_provenance` adds where the file comes from.
+container::Content frame_of(const Measurement& m, const LobeSet& lobes, double epsilon, bool store_provenance);
 
 /// The file without any residual.
 Encoded lobes_only(const container::Content& frame);

@@ -134,9 +134,11 @@ EncodeResult compress(const Measurement& m, const EncodeOptions& options, const 
   std::optional<encode::Verification> coarse;
   if (coarse_quality < final_quality) coarse.emplace(m, coarse_quality, options.threads);
   const encode::Verification& choosing = coarse ? *coarse : verification;
-  const auto search_for = [&](const LobeSet& lobes, const EffortStep& step, const encode::Verification& telling_apart, const auto& run) {
-    const container::Content frame = encode::frame_of(m, lobes, options.store_provenance);
-    const std::vector<residual::BasisCodes> bases = encode::basis_variants(lobes, epsilon, step.variants);
+  const auto frame_for = [&](const FitResult& f) {
+    return encode::frame_of(m, container::quantise_lobes(f.lobes), epsilon, options.store_provenance);
+  };
+  const auto search_for = [&](const container::Content& frame, const EffortStep& step, const encode::Verification& telling_apart, const auto& run) {
+    const std::vector<residual::BasisCodes> bases = encode::basis_variants(frame.lobes, epsilon, step.variants);
     const encode::SourceData source(m, frame, step);
     return run(source, encode::Search{bases, azimuths, options.level, telling_apart, options.threads, step.effort == effort.effort});
   };
@@ -153,7 +155,7 @@ EncodeResult compress(const Measurement& m, const EncodeOptions& options, const 
       std::optional<encode::Verification> own;
       if (!last) own.emplace(m, std::min(choosing_quality, step.verify_quality), options.threads);
       try {
-        Encoded e = search_for(container::quantise_lobes(lower.lobes), step, own ? *own : choosing, [&](const encode::SourceData& source, const encode::Search& search) {
+        Encoded e = search_for(frame_for(lower), step, own ? *own : choosing, [&](const encode::SourceData& source, const encode::Search& search) {
           return encode::encode_to_error(source, search, *options.target_error, verification, progress_of_search);
         });
         if (best.bytes.empty() || e.bytes.size() < best.bytes.size()) {
@@ -171,11 +173,11 @@ EncodeResult compress(const Measurement& m, const EncodeOptions& options, const 
     std::uint64_t smallest = UINT64_MAX;
     // in a small file one lobe less may leave room for something better
     for (;;) {
-      const LobeSet lobes = container::quantise_lobes(fit.lobes);
-      const std::uint64_t alone = encode::lobes_only(encode::frame_of(m, lobes, options.store_provenance)).bytes.size();
+      const container::Content frame = frame_for(fit);
+      const std::uint64_t alone = encode::lobes_only(frame).bytes.size();
       smallest = std::min(smallest, alone);
       if (alone <= size) {
-        encode::Found found = search_for(lobes, effort, choosing, [&](const encode::SourceData& source, const encode::Search& search) {
+        encode::Found found = search_for(frame, effort, choosing, [&](const encode::SourceData& source, const encode::Search& search) {
           return encode::encode_to_size(source, search, size, progress_of_search);
         });
         if (best.bytes.empty() || found.merit > merit) {
@@ -186,7 +188,7 @@ EncodeResult compress(const Measurement& m, const EncodeOptions& options, const 
           summary.fit = std::move(fit.summary);
         }
       }
-      const int fewer = static_cast<int>(lobes.lobes.size()) - 1;
+      const int fewer = static_cast<int>(frame.lobes.lobes.size()) - 1;
       if (size >= few_bytes || fewer < 1) break;
       lobe_options.max_lobes = fewer;
       fit = fit_lobes(m, lobe_options);

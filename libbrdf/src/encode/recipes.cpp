@@ -7,7 +7,6 @@ namespace brdf::encode {
 namespace {
 
 constexpr std::uint64_t slices_from = 300;       // bytes: below, the ndf alone would take a quarter of the file
-constexpr double no_asymmetry = 1e-7;            // log_mae
 constexpr int quick_variants = 1;                // bases of an effort that has no time for a second azimuth
 constexpr std::uint64_t fewest = 120;            // coefficients per channel that may be chosen from in the smallest file
 constexpr std::uint64_t everything_from = 6000;  // bytes: from here on a file may hold every number of the instrument, or
@@ -48,13 +47,13 @@ Azimuths azimuths(const Measurement& m, SymmetryMode reciprocity, SymmetryMode m
   const auto* table = std::get_if<HalfDifferenceTable>(&m.table);
   if (table != nullptr && !table->full_circle) {  // half a circle is all that such a table has
     if (mirror == SymmetryMode::keep) return {Azimuth::reciprocal};
-    const bool open = mirror == SymmetryMode::automatic && asymmetry.mirror >= no_asymmetry && effort.variants > quick_variants;
+    const bool open = mirror == SymmetryMode::automatic && asymmetry.mirror >= negligible_asymmetry && effort.variants > quick_variants;
     return open ? Azimuths{Azimuth::symmetric, Azimuth::reciprocal} : Azimuths{Azimuth::symmetric};
   }
   if (reciprocity == SymmetryMode::enforce) return {Azimuth::symmetric};
   if (reciprocity == SymmetryMode::keep) return {Azimuth::one_way};
   // odd harmonics of data that have none are rounding errors
-  return asymmetry.reciprocity < no_asymmetry ? Azimuths{Azimuth::symmetric} : Azimuths{Azimuth::one_way, Azimuth::symmetric};
+  return asymmetry.reciprocity < negligible_asymmetry ? Azimuths{Azimuth::symmetric} : Azimuths{Azimuth::one_way, Azimuth::symmetric};
 }
 
 std::vector<Recipe> recipes(const SourceData& source, const std::vector<residual::BasisCodes>& bases, const Azimuths& azimuths, std::uint64_t bytes) {

@@ -16,9 +16,6 @@ constexpr double as_good = 0.002;  // dB of merit: less than what the queries re
 constexpr double much_smaller = 0.8;           // of the bytes: from here on a file that is as good is worth having
 constexpr std::size_t most_measured = 4;       // files of the chosen recipe
 
-/// What a file of at most `bytes` has at least, unless no further byte lowers the error.
-std::uint64_t least_size(std::uint64_t bytes) noexcept { return bytes - std::min(bytes, std::max<std::uint64_t>(bytes / 50, 8)); }
-
 /// `e` with the balanced table that was chosen for `chosen`.
 Encoded with_basis_of(const Encoded& chosen, Encoded e) {
   e.content.residual.basis = chosen.content.residual.basis;
