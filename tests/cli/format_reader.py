@@ -70,7 +70,7 @@ class FormatReader(unittest.TestCase):
             at, refinements = whole.header_bytes, -1
             for code, length in whole.directory:
                 at += length + 4
-                refinements += code in (1, 2, 3)
+                refinements += code in (1, 2, 3, 4)
                 cut = Brdfc(data[:at], prefix=True)
                 self.assertEqual(len(cut.layers), refinements)
                 self.assertEqual(cut.coefficients, Brdfc(data, refinements).coefficients)

@@ -141,6 +141,19 @@ std::vector<NamedContent> make_contents() {
     add_layers(c, m, 90, 72, 2);
     all.push_back({"rgb-mirror-asymmetric", std::move(c)});
   }
+  {
+    Content c = frame(golden_source(), true);
+    c.residual = {};
+    c.lobes.lobes[1].color = {0.02, 0, 0.3};
+    c.lobes.lobes[2].f90 = 0;
+    c.lobes = container::quantise_lobes(c.lobes);
+    all.push_back({"rgb-coded-lobes", std::move(c)});
+  }
+  {
+    Content c = frame(test::bumpy_measurement({90, 45, 60}, 31), true);
+    c.residual = {};
+    all.push_back({"spectral-coded-lobes", std::move(c)});
+  }
   return all;
 }
 

@@ -12,6 +12,7 @@ import sys
 
 from support.brdfc_coding import (Bits, Bytes, CoefficientDecoder, FormatError, RangeDecoder, coefficient_order,
                                   require, xxh32)
+from support.brdfc_lobes import ggx, half_difference, read_coded_lobes, read_packed_lobes
 from support.brdfc_slices import ResampledGrid, SliceFrame, SliceTable
 
 __all__ = ["Brdfc", "FormatError", "xxh32"]
@@ -78,10 +79,11 @@ class Brdfc:
         require(self.total == r.at + sum(length + 4 for _, length in self.directory), "the total is not the sum")
 
     def read_chunk(self, code, payload):
-        if code == 1:
+        if code in (1, 4):
             require(self.lobes is None, "a second lobes chunk")
             self.read_errors(0, ["fast"], payload)
-            self.read_lobes(payload[2:])
+            read = read_packed_lobes if code == 1 else read_coded_lobes
+            self.lobes = read(payload[2:], self.channels)
         elif code == 2:
             require(self.lobes is not None and not self.layers, "the residual is in the wrong place")
             self.read_errors(1, ["balanced", "exact"], payload)
@@ -100,25 +102,6 @@ class Brdfc:
         for i, level in enumerate(levels):
             log_mae, psnr = payload[2 * i:2 * i + 2]
             self.errors.append((refinement, level, 2 ** ((log_mae - 240) / 8) if log_mae else 0.0, psnr / 4))
-
-    def read_lobes(self, data):
-        bits = Bits(data)
-        count, exponent = bits.get(4), bits.get(8) - 128
-        require(exponent <= 99, "the lobes are too large")
-
-        def amplitude():
-            code = bits.get(11)
-            return 2 ** (exponent - (2047 - code) / 128) if code else 0.0
-
-        self.lobes = []
-        for _ in range(count):
-            kind, alpha, f90 = bits.get(3), 1.0, 1.0
-            require(kind <= 2, "unknown lobe kind")
-            if kind:
-                alpha = 2 ** (-16.6096404744368 * bits.get(11) / 2047)
-                f90 = amplitude()
-            self.lobes.append((kind, alpha, f90, [amplitude() for _ in range(self.channels)]))
-        require(not bits.rest(), "bytes are left after the lobes")
 
     def read_basis(self, data):
         bits = Bits(data)
@@ -241,27 +224,6 @@ class Brdfc:
 
         u_p = math.sqrt(1 - cos_phi) / 2 if cos_phi >= 0 else 1 - math.sqrt(1 + cos_phi) / 2
         return axis(theta_h, self.kappa_h), axis(theta_d, self.kappa_d), u_p
-
-
-def half_difference(wi, wo):
-    """theta_h, theta_d, cos phi_d."""
-    s, d = [a + b for a, b in zip(wi, wo)], [a - b for a, b in zip(wi, wo)]
-    theta_h = math.atan2(math.hypot(s[0], s[1]), s[2])
-    theta_d = math.atan2(math.hypot(*d), math.hypot(*s))
-    below = 2 * math.sin(theta_h) * math.sin(theta_d)
-    cos_phi = (wo[2] - wi[2]) / below if below > 0 else 0.0
-    return theta_h, theta_d, min(max(cos_phi, -1.0), 1.0)
-
-
-def ggx(kind, alpha, f90, color, wi, wo):
-    ci, co, a2 = wi[2], wo[2], alpha * alpha
-    if kind == 2:
-        wo = (-wo[0], -wo[1], wo[2])
-    theta_h, theta_d, _ = half_difference(wi, wo)
-    d = a2 / (math.pi * (math.sin(theta_h) ** 2 + a2 * math.cos(theta_h) ** 2) ** 2)
-    v = 1 / (2 * (co * math.sqrt(ci * ci + a2 * (1 - ci * ci)) + ci * math.sqrt(co * co + a2 * (1 - co * co))))
-    schlick = (1 - math.cos(theta_d)) ** 5
-    return [(f0 + (f90 - f0) * schlick) * d * v for f0 in color]
 
 
 if __name__ == "__main__":

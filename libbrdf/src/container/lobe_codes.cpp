@@ -1,84 +1,131 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "container/lobe_codes.h"
 
-#include <algorithm>
-#include <cmath>
+#include "container/lobe_quantiser.h"
+#include "residual/range_coder.h"
+
+#include <array>
+#include <bit>
+#include <cstdlib>
 
 namespace brdf::container {
 namespace {
 
-constexpr int amplitude_bits = 11, alpha_bits = 11;
-constexpr std::uint32_t largest_code = 2047;
-constexpr int largest_exponent = 99;  // 6e29: products of lobes and ratios stay finite floats
-constexpr double alpha_octaves = 16.6096404744368;  // log2(1 / 1e-5)
+using residual::AdaptiveBit;
 
-double amplitude_of(std::uint32_t code, int exponent) noexcept {
-  return code == 0 ? 0.0 : std::exp2(exponent - (largest_code - code) / 128.0);
+AdaptiveBit percent(int p1) { return AdaptiveBit(static_cast<std::uint32_t>(65536 * p1 / 100)); }
+
+enum Role : std::size_t { f90, first_channel, next_channel, roles };
+
+/// Adaptive probabilities of one set of lobes.
+class LobeModel {
+ public:
+  LobeModel() {
+    // starting points measured over materials of several databases
+    constexpr std::array<int, roles> nonzero = {70, 95, 94};
+    constexpr std::array<std::array<int, lobe_code_bits>, roles> wider = {{{95, 97, 97, 96, 95, 93, 85, 60, 70, 60, 40},
+                                                                           {99, 98, 97, 96, 95, 93, 90, 80, 57, 25, 10},
+                                                                           {97, 98, 97, 92, 90, 85, 68, 55, 45, 20, 20}}};
+    for (std::size_t r = 0; r < roles; ++r) {
+      nonzero_[r] = percent(nonzero[r]);
+      for (std::size_t w = 0; w < lobe_code_bits; ++w) wider_[r][w] = percent(wider[r][w]);
+    }
+  }
+
+  /// Codes one kind with either coder and returns it.
+  template <class Coder>
+  LobeKind kind(Coder& coder, bool first_lobe, LobeKind value) {
+    if (!coder.bit(microfacets_[first_lobe ? 0 : 1], value != LobeKind::lambert)) return LobeKind::lambert;
+    return coder.bit(retro_, value == LobeKind::retro_ggx) ? LobeKind::retro_ggx : LobeKind::ggx;
+  }
+
+  /// Codes one amplitude: whether it is 0, else its distance from what is expected. Throws Error(malformed).
+  template <class Coder>
+  std::int32_t amplitude(Coder& coder, Role role, std::int32_t expected, std::int32_t value) {
+    if (!coder.bit(nonzero_[role], value != 0)) return 0;
+    const std::int32_t distance = step(coder, role, value - expected), read = expected + distance;
+    if (read < 1 || read > largest_lobe_code)
+      throw Error(ErrorCode::malformed, "lobes: an amplitude code is " + std::to_string(read) + ", not 1 to " + std::to_string(largest_lobe_code));
+    return read;
+  }
+
+ private:
+  template <class Coder>
+  std::int32_t step(Coder& coder, Role role, std::int32_t value) {
+    const auto magnitude = static_cast<std::uint32_t>(std::abs(value));
+    const int wanted = static_cast<int>(std::bit_width(magnitude));
+    int width = 0;
+    while (width < lobe_code_bits && coder.bit(wider_[role][static_cast<std::size_t>(width)], width < wanted)) ++width;
+    if (width == 0) return 0;
+    // f90 is measured downwards from the largest code
+    const bool negative = role == f90 || coder.raw(1, value < 0 ? 1U : 0U) != 0;
+    const std::uint32_t leading = 1U << (width - 1);
+    const auto read = static_cast<std::int32_t>(leading | coder.raw(width - 1, magnitude & (leading - 1)));
+    return negative ? -read : read;
+  }
+
+  AdaptiveBit microfacets_[2] = {percent(40), percent(95)}, retro_ = percent(8);
+  AdaptiveBit nonzero_[roles];
+  AdaptiveBit wider_[roles][lobe_code_bits];
+};
+
+constexpr std::int32_t usual_channel = 1500;
+
+/// Writes `set` or fills it, with either coder.
+template <class Coder>
+void code_lobes(Coder& coder, int exponent, LobeSet& set) {
+  LobeModel model;
+  for (std::size_t i = 0; i < set.lobes.size(); ++i) {
+    Lobe& lobe = set.lobes[i];
+    lobe.kind = model.kind(coder, i == 0, lobe.kind);
+    if (has_microfacets(lobe.kind)) {
+      lobe.alpha = alpha_of(static_cast<std::int32_t>(coder.raw(lobe_code_bits, static_cast<std::uint32_t>(alpha_code(lobe.alpha)))));
+      lobe.f90 = amplitude_of(model.amplitude(coder, f90, largest_lobe_code, amplitude_code(lobe.f90, exponent)), exponent);
+    }
+    std::int32_t expected = usual_channel;
+    for (std::size_t c = 0; c < lobe.color.size(); ++c) {
+      const std::int32_t code = model.amplitude(coder, c == 0 ? first_channel : next_channel, expected, amplitude_code(lobe.color[c], exponent));
+      lobe.color[c] = amplitude_of(code, exponent);
+      if (code != 0) expected = code;
+    }
+  }
 }
 
-std::uint32_t amplitude_code(double value, int exponent) noexcept {
-  if (!(value > 0)) return 0;
-  const double code = std::round(largest_code + (std::log2(value) - exponent) * 128.0);
-  return code < 1 ? 0U : static_cast<std::uint32_t>(std::min(code, static_cast<double>(largest_code)));
-}
-
-bool has_microfacets(LobeKind kind) noexcept { return kind != LobeKind::lambert; }
-
-}  // namespace
-
-void write_lobes(BitWriter& out, const LobeSet& set) {
+int exponent_above(const LobeSet& set) noexcept {
   double largest = 0;
   for (const Lobe& lobe : set.lobes) {
     if (has_microfacets(lobe.kind)) largest = std::max(largest, lobe.f90);
     for (const double c : lobe.color) largest = std::max(largest, c);
   }
-  const int exponent = largest > 0 ? std::clamp(static_cast<int>(std::ceil(std::log2(largest))), -128, largest_exponent) : 0;
-  out.put(static_cast<std::uint32_t>(set.lobes.size()), 4);
-  out.put(static_cast<std::uint32_t>(exponent + 128), 8);
-  for (const Lobe& lobe : set.lobes) {
-    out.put(static_cast<std::uint32_t>(lobe.kind), 3);
-    if (has_microfacets(lobe.kind)) {
-      const double octaves = std::clamp(-std::log2(lobe.alpha), 0.0, alpha_octaves);
-      out.put(static_cast<std::uint32_t>(std::lround(octaves / alpha_octaves * largest_code)), alpha_bits);
-      out.put(amplitude_code(lobe.f90, exponent), amplitude_bits);
-    }
-    for (const double c : lobe.color) out.put(amplitude_code(c, exponent), amplitude_bits);
-  }
+  return largest > 0 ? std::clamp(static_cast<int>(std::ceil(std::log2(largest))), -exponent_offset, largest_exponent) : 0;
 }
 
-LobeSet read_lobes(BitReader& in, int channels, std::uint32_t max_lobes) {
-  LobeSet set;
-  set.channels = channels;
-  const std::uint32_t count = in.get(4);
-  if (count > max_lobes)
-    throw Error(ErrorCode::limit_exceeded,
-                "lobes: " + std::to_string(count) + " are stored, the limit is " + std::to_string(max_lobes));
-  const int exponent = static_cast<int>(in.get(8)) - 128;
-  if (exponent > largest_exponent)
-    throw Error(ErrorCode::malformed, "lobes: amplitudes up to 2^" + std::to_string(exponent) + " are declared, at most 2^" +
-                                          std::to_string(largest_exponent) + " are allowed");
-  for (std::uint32_t i = 0; i < count; ++i) {
-    Lobe lobe;
-    const std::uint32_t kind = in.get(3);
-    if (kind > static_cast<std::uint32_t>(LobeKind::retro_ggx))
-      throw Error(ErrorCode::unsupported, "lobes: kind " + std::to_string(kind) + " is not known to this version");
-    lobe.kind = static_cast<LobeKind>(kind);
-    if (has_microfacets(lobe.kind)) {
-      lobe.alpha = std::exp2(-static_cast<double>(in.get(alpha_bits)) / largest_code * alpha_octaves);
-      lobe.f90 = amplitude_of(in.get(amplitude_bits), exponent);
-    }
-    lobe.color.resize(static_cast<std::size_t>(channels));
-    for (double& c : lobe.color) c = amplitude_of(in.get(amplitude_bits), exponent);
-    set.lobes.push_back(std::move(lobe));
-  }
+}  // namespace
+
+std::vector<std::byte> write_lobes(const LobeSet& set) {
+  residual::RangeEncoder coder;
+  const int exponent = exponent_above(set);
+  coder.raw(lobe_count_bits, static_cast<std::uint32_t>(set.lobes.size()));
+  coder.raw(exponent_bits, static_cast<std::uint32_t>(exponent + exponent_offset));
+  LobeSet copy = set;
+  code_lobes(coder, exponent, copy);
+  return coder.finish();
+}
+
+LobeSet read_lobes(std::span<const std::byte> bytes, int channels, std::uint32_t max_lobes) {
+  residual::RangeDecoder coder(bytes);
+  const std::uint32_t count = coder.raw(lobe_count_bits);
+  check_lobe_count(count, max_lobes);
+  const int exponent = exponent_of(coder.raw(exponent_bits));
+  Lobe empty;
+  empty.color.assign(static_cast<std::size_t>(channels), 0.0);
+  LobeSet set{channels, std::vector<Lobe>(count, empty)};
+  code_lobes(coder, exponent, set);
+  if (coder.overrun() > 4) throw Error(ErrorCode::malformed, "lobes: they go on beyond the end of their chunk");
+  if (coder.unread() > 0) throw Error(ErrorCode::malformed, "lobes: bytes are left over in their chunk");
   return set;
 }
 
-LobeSet quantise_lobes(const LobeSet& lobes) {
-  BitWriter out;
-  write_lobes(out, lobes);
-  BitReader in(out.bytes(), "lobes");
-  return read_lobes(in, lobes.channels, 15);
-}
+LobeSet quantise_lobes(const LobeSet& lobes) { return read_lobes(write_lobes(lobes), lobes.channels, (1U << lobe_count_bits) - 1); }
 
 }  // namespace brdf::container

@@ -59,9 +59,7 @@ std::vector<std::byte> pack(const Content& content) {
 
   std::vector<std::byte> lobes;
   put_errors(lobes, content, 0, {EvalLevel::fast});
-  BitWriter bits;
-  write_lobes(bits, content.lobes);
-  append(lobes, bits.bytes());
+  append(lobes, write_lobes(content.lobes));
   add(static_cast<std::uint8_t>(ChunkType::lobes), std::move(lobes));
 
   const residual::ResidualCode& code = content.residual;

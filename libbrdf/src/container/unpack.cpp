@@ -5,6 +5,7 @@
 #include "container/error_codes.h"
 #include "container/header.h"
 #include "container/lobe_codes.h"
+#include "container/packed_lobes.h"
 #include "container/residual_chunk.h"
 #include "container/slice_frame_codes.h"
 #include "container/varint.h"
@@ -40,6 +41,7 @@ void read_provenance(std::span<const std::byte> payload, Content& content) {
 
 std::string kind_name(std::uint8_t code) {
   switch (static_cast<ChunkType>(code)) {
+    case ChunkType::packed_lobes:
     case ChunkType::lobes: return "lobes";
     case ChunkType::residual: return "residual";
     case ChunkType::refinement: return "refinement";
@@ -55,7 +57,8 @@ class ChunkReader {
 
   void read(std::uint8_t code, std::span<const std::byte> payload) {
     switch (static_cast<ChunkType>(code)) {
-      case ChunkType::lobes: return lobes(payload);
+      case ChunkType::packed_lobes: return lobes(payload, read_packed_lobes);
+      case ChunkType::lobes: return lobes(payload, read_lobes);
       case ChunkType::residual: return residual(payload);
       case ChunkType::refinement: return refinement(payload);
       case ChunkType::provenance: return read_provenance(payload, out_.content);
@@ -65,13 +68,11 @@ class ChunkReader {
   }
 
  private:
-  void lobes(std::span<const std::byte> payload) {
+  void lobes(std::span<const std::byte> payload, LobeSet (*reader)(std::span<const std::byte>, int, std::uint32_t)) {
     if (have_lobes_) throw Error(ErrorCode::malformed, "chunk: a second lobes chunk");
     have_lobes_ = true;
     out_.content.errors.push_back(read_error(payload, 0, EvalLevel::fast));
-    BitReader bits(payload, "lobes chunk");
-    out_.content.lobes = read_lobes(bits, out_.content.component.channels.count, limits_.max_lobes);
-    if (!bits.rest().empty()) throw Error(ErrorCode::malformed, "lobes chunk: bytes are left over");
+    out_.content.lobes = reader(payload, out_.content.component.channels.count, limits_.max_lobes);
   }
 
   void residual(std::span<const std::byte> payload) {
@@ -137,6 +138,11 @@ class ChunkReader {
   std::optional<residual::LayerCodec> codec_;
 };
 
+bool is_lobes(std::uint8_t code) noexcept {
+  const auto type = static_cast<ChunkType>(code);
+  return type == ChunkType::lobes || type == ChunkType::packed_lobes;
+}
+
 bool is_layer(std::uint8_t code) noexcept {
   const auto type = static_cast<ChunkType>(code);
   return type == ChunkType::residual || type == ChunkType::refinement;
@@ -150,7 +156,7 @@ std::vector<std::uint64_t> boundaries(std::span<const std::byte> bytes, const De
   std::uint64_t at = header.header_bytes;
   for (const DirectoryEntry& e : header.directory) {
     at += e.length + checksum_bytes;
-    if (is_layer(e.code) || static_cast<ChunkType>(e.code) == ChunkType::lobes) ends.push_back(at);
+    if (is_layer(e.code) || is_lobes(e.code)) ends.push_back(at);
   }
   return ends;
 }

@@ -72,6 +72,7 @@ void count_bytes(std::span<const std::byte> bytes, EncodeSummary& summary) {
   for (const container::DirectoryEntry& e : header.directory) {
     summary.overhead_bytes += container::checksum_bytes;
     switch (static_cast<container::ChunkType>(e.code)) {
+      case container::ChunkType::packed_lobes:
       case container::ChunkType::lobes: summary.lobe_bytes += e.length; break;
       case container::ChunkType::residual:
       case container::ChunkType::refinement: summary.residual_bytes += e.length; break;

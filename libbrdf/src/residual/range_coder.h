@@ -137,6 +137,8 @@ class RangeDecoder {
   }
   /// Bytes asked for beyond the end; the encoder never needs more than 4 of them.
   std::size_t overrun() const noexcept { return at_ > bytes_.size() ? at_ - bytes_.size() : 0; }
+  /// Bytes never asked for; a stream of the encoder leaves none.
+  std::size_t unread() const noexcept { return at_ < bytes_.size() ? bytes_.size() - at_ : 0; }
 
  private:
   std::uint32_t next() noexcept {
