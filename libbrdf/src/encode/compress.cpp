@@ -60,6 +60,7 @@ FitOptions fit_options(const EffortStep& effort, int threads) {
 void record_errors(Encoded& e, const encode::Verification& verification) {
   DecodeOptions decode;
   decode.allow_prefix = true;
+  decode.sampling = false;
   const std::vector<std::uint64_t> ends = container::boundaries(e.bytes, decode.limits);
   e.content.errors.clear();
   for (std::size_t i = 0; i < ends.size(); ++i) {

@@ -15,6 +15,7 @@ Encoded encode_to_error(const Measurement& m, const container::Content& frame, c
                         EvalLevel level, const Verification& verification) {
   DecodeOptions decode;
   decode.level = level;
+  decode.sampling = false;
   std::optional<double> best_value;
   const auto meets = [&](const Encoded& e) {
     const ErrorReport r = verification.score(Material::decode(e.bytes, decode));
