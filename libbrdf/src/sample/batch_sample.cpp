@@ -37,15 +37,20 @@ struct DrawnPairs {
 
 void run_draw(const Material::Sampling* s, const DirectionSpan& wo, const DirectionSpan& u, const MutableDirectionSpan& wi,
               float* pdf, const eval::Tables* t, PlanarSpan weight) {
+  const Floats d;
+  const std::size_t lanes = hn::Lanes(d);
   Drawn drawn;
   for (std::size_t first = 0; first < wo.size; first += block_pairs) {
     const std::size_t size = HWY_MIN(block_pairs, wo.size - first);
     const DirectionSpan views = part_of(wo, first, size);
     draw_block(s, views, part_of(u, first, size), drawn);
-    std::memcpy(wi.x + first, drawn.x, size * sizeof(float));
-    std::memcpy(wi.y + first, drawn.y, size * sizeof(float));
-    std::memcpy(wi.z + first, drawn.z, size * sizeof(float));
-    std::memcpy(pdf + first, drawn.pdf, size * sizeof(float));
+    for (std::size_t at = 0; at < size; at += lanes) {
+      const std::size_t count = HWY_MIN(lanes, size - at);
+      kernel::store_first(hn::Load(d, drawn.x + at), wi.x + first + at, count);
+      kernel::store_first(hn::Load(d, drawn.y + at), wi.y + first + at, count);
+      kernel::store_first(hn::Load(d, drawn.z + at), wi.z + first + at, count);
+      kernel::store_first(hn::Load(d, drawn.pdf + at), pdf + first + at, count);
+    }
     if (t != nullptr) kernel::eval_pairs(*t, size, {weight.data + first, weight.stride}, DrawnPairs{drawn, views});
   }
 }

@@ -30,69 +30,96 @@ HWY_INLINE kernel::CellPosition view_position(V cos_o) {
 
 /// A cell of the table for each pair, and what is found there.
 struct CellBlock {
-  HWY_ALIGN std::int32_t view[block_pairs], column[block_pairs];  ///< lower ones of the two that are interpolated
+  HWY_ALIGN std::int32_t view[block_pairs];  ///< lower one of the two that are interpolated
   HWY_ALIGN float to_view[block_pairs];
-  HWY_ALIGN float weight[4][block_pairs];  ///< of the rows: column, next column, then both of the next view
+  HWY_ALIGN std::int32_t row[block_pairs];  ///< the conditional row of the lower view and the lower column
+  HWY_ALIGN float weight[4][block_pairs];   ///< of the rows: column, next column, then both of the next view
   HWY_ALIGN std::int32_t cell[block_pairs];
   HWY_ALIGN float node[4 * block_pairs];  ///< integral and density at either edge of the cell
   HWY_ALIGN float edge[2 * block_pairs];
+
+  /// What vectors read behind the last pair must be numbers.
+  HWY_INLINE void pad(std::size_t size, std::size_t vectors) {
+    if (HWY_LIKELY(size == vectors)) return;
+    for (std::size_t i = 4 * size; i < 4 * vectors; ++i) node[i] = 0;
+    for (std::size_t i = 2 * size; i < 2 * vectors; ++i) edge[i] = 0;
+    for (std::size_t i = size; i < vectors; ++i) cell[i] = 0;
+  }
 };
 
-/// Weights of the four rows around (view, v).
-HWY_INLINE void place_rows(CellBlock& b, std::size_t at, V to_view, V to_column) {
+/// The four rows around (view, v) and their weights.
+HWY_INLINE void place_rows(CellBlock& b, std::size_t at, VI view, VI column, V to_view, V to_column) {
   const Floats d;
+  const Ints di;
   const V one = set(1.0f), below_view = hn::Sub(one, to_view), below = hn::Sub(one, to_column);
+  const VI rows = hn::Mul(view, hn::Set(di, static_cast<std::int32_t>(Table::rows_per_view)));
+  hn::Store(hn::Add(rows, column), di, b.row + at);
   hn::Store(hn::Mul(below_view, below), d, b.weight[0] + at);
   hn::Store(hn::Mul(below_view, to_column), d, b.weight[1] + at);
   hn::Store(hn::Mul(to_view, below), d, b.weight[2] + at);
   hn::Store(hn::Mul(to_view, to_column), d, b.weight[3] + at);
 }
 
-/// Rows of one pair that are interpolated.
+/// Rows of one pair that are interpolated: two of the marginal table or four of the conditional one.
 template <std::size_t n>
 struct RowsOfPair {
-  const float* row[n];
+  static constexpr std::size_t row_floats = sizeof(DensityRow) / sizeof(float);
+  static constexpr std::size_t first_node = offsetof(DensityRow, node) / sizeof(float);
+  static constexpr std::size_t view_floats = row_floats * (n == 4 ? Table::rows_per_view : 1);
+
+  const float* row;
   float weight[n];
 
   HWY_INLINE kernel::EightFloats eight(std::size_t offset) const {
-    const auto add = [this, offset](kernel::EightFloats sum, std::size_t k) HWY_ATTR __attribute__((always_inline)) {
-      return kernel::add_weighted_eight(sum, weight[k], row[k] + offset);
-    };
-    const kernel::EightFloats two = add(kernel::weighted_eight(weight[0], row[0] + offset), 1);
-    if constexpr (n == 2) return two;
-    return add(add(two, 2), 3);  // written out: the rows stay in registers
+    const float* const p = row + offset;
+    if constexpr (n == 2) {
+      return kernel::add_weighted_eight(kernel::weighted_eight(weight[0], p), weight[1], p + view_floats);
+    } else {  // as two sums: a shorter chain
+      const auto view = kernel::add_weighted_eight(kernel::weighted_eight(weight[0], p), weight[1], p + row_floats);
+      const float* const q = p + view_floats;
+      return kernel::add_scaled(view, 1.0f, kernel::add_weighted_eight(kernel::weighted_eight(weight[2], q), weight[3], q + row_floats));
+    }
   }
   HWY_INLINE void store_node(std::size_t cell, float* HWY_RESTRICT out) const {
-    const std::size_t offset = first_node + 2 * cell;
-    kernel::Float4 sum = weight[0] * kernel::load_four(row[0] + offset) + weight[1] * kernel::load_four(row[1] + offset);
-    if constexpr (n == 4) sum += weight[2] * kernel::load_four(row[2] + offset) + weight[3] * kernel::load_four(row[3] + offset);
-    kernel::store_four(sum, out);
+    const float* const p = row + first_node + 2 * cell;
+    if constexpr (n == 2) {
+      kernel::store_four(weight[0] * kernel::load_four(p) + weight[1] * kernel::load_four(p + view_floats), out);
+    } else {
+      const float* const q = p + view_floats;
+      kernel::store_four((weight[0] * kernel::load_four(p) + weight[1] * kernel::load_four(p + row_floats)) +
+                             (weight[2] * kernel::load_four(q) + weight[3] * kernel::load_four(q + row_floats)),
+                         out);
+    }
   }
-  /// The last cell whose lower edge's integral is not above `target`.
-  HWY_INLINE std::size_t search(float target) const {
-    const std::size_t quarter = kernel::count_up_to(eight(0), target);
+  /// The number of inner fourth edges whose integral is not above `target`.
+  HWY_INLINE std::size_t quarter(float target) const { return kernel::count_up_to(eight(0), target); }
+  /// The last cell, of those from that edge on, whose lower edge's integral is not above `target`.
+  HWY_INLINE std::size_t cell(std::size_t quarter, float target) const {
     return 4 * quarter + kernel::count_even_up_to(eight(first_node + 2 + 8 * quarter), target);
   }
-
-  static constexpr std::size_t first_node = offsetof(DensityRow, node) / sizeof(float);
 };
 
 HWY_INLINE RowsOfPair<2> marginal_rows(const Table& t, const CellBlock& b, std::size_t i) {
-  const DensityRow* row = t.marginal.data() + b.view[i];
   const float up = b.to_view[i];
-  return {{row->quarter.data(), (row + 1)->quarter.data()}, {1.0f - up, up}};
+  return {(t.marginal.data() + b.view[i])->quarter.data(), {1.0f - up, up}};
 }
 
 HWY_INLINE RowsOfPair<4> conditional_rows(const Table& t, const CellBlock& b, std::size_t i) {
-  const auto step = static_cast<std::ptrdiff_t>(Table::rows_per_view);
-  const DensityRow* row = t.conditional.data() + (b.view[i] * step + b.column[i]);
-  return {{row->quarter.data(), (row + 1)->quarter.data(), (row + step)->quarter.data(), (row + step + 1)->quarter.data()},
-          {b.weight[0][i], b.weight[1][i], b.weight[2][i], b.weight[3][i]}};
+  return {(t.conditional.data() + b.row[i])->quarter.data(), {b.weight[0][i], b.weight[1][i], b.weight[2][i], b.weight[3][i]}};
 }
 
-HWY_INLINE void read_cell(const Table& t, const RowsOfPair<4>& rows, std::size_t cell, CellBlock& b, std::size_t i) {
-  rows.store_node(cell, b.node + 4 * i);
-  std::memcpy(b.edge + 2 * i, t.edge.data() + cell, 2 * sizeof(float));
+/// Cells of `size` pairs that hold the integrals in `target`, and what is at their edges. Step by step for all: each step
+/// of a pair waits for the one before, and the processor looks ahead over few pairs.
+template <class Rows>
+HWY_INLINE void search_rows(std::size_t size, const float* HWY_RESTRICT target, CellBlock& b, const Rows& rows) {
+  for (std::size_t i = 0; i < size; ++i) b.cell[i] = static_cast<std::int32_t>(rows(i).quarter(target[i]));
+  for (std::size_t i = 0; i < size; ++i)
+    b.cell[i] = static_cast<std::int32_t>(rows(i).cell(static_cast<std::size_t>(b.cell[i]), target[i]));
+  for (std::size_t i = 0; i < size; ++i) rows(i).store_node(static_cast<std::size_t>(b.cell[i]), b.node + 4 * i);
+}
+
+HWY_INLINE void read_edge(const Table& t, CellBlock& b, std::size_t i) {
+  std::memcpy(b.edge + 2 * i, t.edge.data() + b.cell[i], 2 * sizeof(float));
 }
 
 /// Position in a cell where the integral of a density from a to e has risen to `rise` (of a cell of width 1).
@@ -114,8 +141,7 @@ HWY_INLINE void begin_density(const Table& t, V cos_o, const Point& p, CellBlock
   const kernel::CellPosition column = kernel::cell_position(hn::Mul(p.v, set(columns)), static_cast<int>(Table::columns) - 1);
   hn::Store(view.index, di, b.view + at);
   hn::Store(view.fraction, d, b.to_view + at);
-  hn::Store(column.index, di, b.column + at);
-  place_rows(b, at, view.fraction, column.fraction);
+  place_rows(b, at, view.index, column.index, view.fraction, column.fraction);
   V cell = hn::Zero(d);
   for (std::size_t i = 1; i < row_cells; ++i)
     cell = hn::Add(cell, hn::IfThenElseZero(hn::Ge(p.height, set(t.edge[i])), set(1.0f)));

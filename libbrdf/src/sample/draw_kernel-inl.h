@@ -96,8 +96,9 @@ HWY_INLINE void invert_marginal(DrawBlock& b, std::size_t at) {
   hn::LoadInterleaved4(d, b.cells.node + 4 * at, before, left, after, right);
   const V rise = hn::Mul(hn::Sub(hn::Load(d, b.target + at), before), set(columns));
   const V to_column = inverse_integral(left, right, rise);
-  const V column = hn::ConvertTo(d, hn::Load(Ints(), b.cells.column + at));
-  place_rows(b.cells, at, hn::Load(d, b.cells.to_view + at), to_column);
+  const VI cell = hn::Load(Ints(), b.cells.cell + at);
+  const V column = hn::ConvertTo(d, cell);
+  place_rows(b.cells, at, hn::Load(Ints(), b.cells.view + at), cell, hn::Load(d, b.cells.to_view + at), to_column);
   hn::Store(hn::Mul(hn::Add(column, to_column), set(1.0f / columns)), d, b.v + at);
   hn::Store(hn::Mul(hn::Load(d, b.random + at), between(left, right, to_column)), d, b.target + at);
 }
@@ -142,21 +143,11 @@ HWY_INLINE void draw_block(const Material::Sampling* s, const DirectionSpan& wo,
   }
   const auto table = [&](std::size_t i) -> const Table& { return choose && b.turn[i] < 0 ? *s->back : s->front; };
   for (std::size_t at = 0; at < size; at += lanes) begin_draw(wo, u, at, HWY_MIN(lanes, size - at), choose, b);
-  std::memset(b.cells.column + size, 0, (vectors - size) * sizeof(std::int32_t));
-  std::memset(b.cells.node + 4 * size, 0, 4 * (vectors - size) * sizeof(float));
-  std::memset(b.cells.edge + 2 * size, 0, 2 * (vectors - size) * sizeof(float));
-  for (std::size_t i = 0; i < size; ++i) {
-    const RowsOfPair<2> rows = marginal_rows(table(i), b.cells, i);
-    const std::size_t column = rows.search(b.target[i]);
-    b.cells.column[i] = static_cast<std::int32_t>(column);
-    rows.store_node(column, b.cells.node + 4 * i);
-  }
+  b.cells.pad(size, vectors);
+  search_rows(size, b.target, b.cells, [&](std::size_t i) HWY_ATTR { return marginal_rows(table(i), b.cells, i); });
   for (std::size_t at = 0; at < size; at += lanes) invert_marginal(b, at);
-  for (std::size_t i = 0; i < size; ++i) {
-    const Table& t = table(i);
-    const RowsOfPair<4> rows = conditional_rows(t, b.cells, i);
-    read_cell(t, rows, rows.search(b.target[i]), b.cells, i);
-  }
+  search_rows(size, b.target, b.cells, [&](std::size_t i) HWY_ATTR { return conditional_rows(table(i), b.cells, i); });
+  for (std::size_t i = 0; i < size; ++i) read_edge(table(i), b.cells, i);
   for (std::size_t at = 0; at < size; at += lanes) finish_draw(b, at, out);
   if (!choose) return;
   // the density of both components together, at the directions as they are returned

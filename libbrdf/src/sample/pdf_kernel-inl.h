@@ -2,8 +2,6 @@
 // The density of a material's samples for a block of pairs.
 #include "sample/density.h"
 
-#include <cstring>
-
 #include "sample/density_kernel-inl.h"
 
 #if defined(BRDF_SAMPLE_PDF_KERNEL_INL_H_) == defined(HWY_TARGET_TOGGLE)
@@ -51,10 +49,11 @@ HWY_INLINE void component_pdf(const Table& t, float turn, const DirectionSpan& w
     hn::Store(point.height, d, b.height + at);
     hn::Store(hn::IfThenElseZero(p.valid, point.density), d, b.density + at);
   }
-  std::memset(b.cells.node + 4 * size, 0, 4 * (vectors - size) * sizeof(float));
-  std::memset(b.cells.edge + 2 * size, 0, 2 * (vectors - size) * sizeof(float));
-  for (std::size_t i = 0; i < size; ++i)
-    read_cell(t, conditional_rows(t, b.cells, i), static_cast<std::size_t>(b.cells.cell[i]), b.cells, i);
+  b.cells.pad(size, vectors);
+  for (std::size_t i = 0; i < size; ++i) {
+    conditional_rows(t, b.cells, i).store_node(static_cast<std::size_t>(b.cells.cell[i]), b.cells.node + 4 * i);
+    read_edge(t, b.cells, i);
+  }
   for (std::size_t at = 0; at < size; at += lanes) {
     const V density = hn::Load(d, b.density + at), value = hn::Mul(density, finish_density(b.cells, at, hn::Load(d, b.height + at)));
     kernel::store_first(hn::IfThenElseZero(hn::Gt(density, hn::Zero(d)), value), pdf + at, HWY_MIN(lanes, size - at));
