@@ -15,6 +15,7 @@ namespace brdf::sample {
 namespace {
 
 using Table = ComponentTable;
+using Map = HalfVectorMap<double>;
 
 /// Share of a cosine-distributed density, where the table's nodes may have missed what f holds between them.
 constexpr double cosine_share = 0.005;
@@ -81,12 +82,12 @@ class Integrand {
     for (auto* plane : {&wi_x_, &wi_y_, &wi_z_, &wo_x_, &wo_y_, &wo_z_}) plane->resize(view_nodes);
     f_.resize(channels * view_nodes);
   }
-  void set(std::size_t at, const glm::dvec3& wi) {
+  void set(std::size_t at, const Vec3d& wi) {
     wi_x_[at] = static_cast<float>(wi.x);
     wi_y_[at] = static_cast<float>(wi.y);
     wi_z_[at] = static_cast<float>(wi.z);
   }
-  void add(const HalfVectorMap& map, double sign, std::span<double> f_cos) {
+  void add(const Map& map, double sign, std::span<double> f_cos) {
     std::fill(wo_x_.begin(), wo_x_.end(), turned_ * static_cast<float>(map.s));
     std::fill(wo_z_.begin(), wo_z_.end(), static_cast<float>(map.c));
     eval::eval_batch(tables_, {wi_x_.data(), wi_y_.data(), wi_z_.data(), view_nodes},
@@ -126,17 +127,19 @@ std::array<double, Table::views> tabulate(const Source& source, Table& t) {
   std::array<double, Table::columns> column_width;
   column_width.fill(1.0 / static_cast<double>(Table::columns));
   for (std::size_t k = 0; k < Table::views; ++k) {
-    const HalfVectorMap map(view_cosine(k));
+    const double c = view_cosine(k);
+    const Map map(std::sqrt(1 - c * c), c);
     for (std::size_t n = 0; n < view_nodes; ++n) {
       const double v = static_cast<double>(n / edges) / static_cast<double>(Table::columns);
       // the last one in the middle of the last cell
       const bool last = n % edges == row_cells;
       const double height = static_cast<double>(t.edge[n % edges]) - (last ? 0.5 * width[row_cells - 1] : 0.0);
-      const HalfVectorMap::Point p = map.direction(height, v);
-      source.f->set(n, p.wi);
-      if (source.without) source.without->set(n, p.wi);
-      area[n] = 2 * p.area;  // of both sides
-      cosine[n] = std::max(p.wi.z, 0.0) * std::numbers::inv_pi * area[n];
+      const Map::Half h = map.half_vector(height, v);
+      const Vec3d wi{2 * h.wo_h * h.x - map.s, 2 * h.wo_h * h.y, 2 * h.wo_h * h.z - map.c};
+      source.f->set(n, wi);
+      if (source.without) source.without->set(n, wi);
+      area[n] = 2 * h.area;  // of both sides
+      cosine[n] = std::max(wi.z, 0.0) * std::numbers::inv_pi * area[n];
     }
     std::fill(f_cos.begin(), f_cos.end(), 0.0);
     source.f->add(map, 1, f_cos);

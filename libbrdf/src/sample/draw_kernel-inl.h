@@ -141,13 +141,18 @@ HWY_INLINE void draw_block(const Material::Sampling* s, const DirectionSpan& wo,
     choose_components(*s, wo, u, b);
     std::fill(b.turn + size, b.turn + vectors, 1.0f);
   }
-  const auto table = [&](std::size_t i) -> const Table& { return choose && b.turn[i] < 0 ? *s->back : s->front; };
   for (std::size_t at = 0; at < size; at += lanes) begin_draw(wo, u, at, HWY_MIN(lanes, size - at), choose, b);
   b.cells.pad(size, vectors);
-  search_rows(size, b.target, b.cells, [&](std::size_t i) HWY_ATTR { return marginal_rows(table(i), b.cells, i); });
-  for (std::size_t at = 0; at < size; at += lanes) invert_marginal(b, at);
-  search_rows(size, b.target, b.cells, [&](std::size_t i) HWY_ATTR { return conditional_rows(table(i), b.cells, i); });
-  for (std::size_t i = 0; i < size; ++i) read_edge(table(i), b.cells, i);
+  const auto invert = [&](const auto& table) HWY_ATTR __attribute__((always_inline)) {
+    search_rows(size, b.target, b.cells, [&](std::size_t i) HWY_ATTR { return marginal_rows(table(i), b.cells, i); });
+    for (std::size_t at = 0; at < size; at += lanes) invert_marginal(b, at);
+    search_rows(size, b.target, b.cells, [&](std::size_t i) HWY_ATTR { return conditional_rows(table(i), b.cells, i); });
+    for (std::size_t i = 0; i < size; ++i) read_edge(table(i), b.cells, i);
+  };
+  if (choose)
+    invert([&](std::size_t i) -> const Table& { return b.turn[i] < 0 ? *s->back : s->front; });
+  else
+    invert([front = &s->front](std::size_t) -> const Table& { return *front; });
   for (std::size_t at = 0; at < size; at += lanes) finish_draw(b, at, out);
   if (!choose) return;
   // the density of both components together, at the directions as they are returned

@@ -3,10 +3,9 @@
 // vector, v its azimuth from the view.
 #pragma once
 
-#include <glm/vec3.hpp>
-
 #include <algorithm>
 #include <cmath>
+#include <limits>
 
 namespace brdf::sample {
 
@@ -14,57 +13,66 @@ namespace brdf::sample {
 inline constexpr float min_view_cosine = 1e-6f;
 /// Least cosine of a direction drawn: what rounding would put at the horizon stays above it.
 inline constexpr float min_drawn_cosine = 1e-9f;
+/// The largest float below 1.
+inline constexpr float below_one = 1.0f - 0.5f * std::numeric_limits<float>::epsilon();
 
-/// The map of one view (s, 0, c), in double. A half vector h at azimuth phi and polar angle theta_h sends the view to
+/// The map of one view (s, 0, c). A half vector h at azimuth phi from the view and polar angle theta_h sends the view to
 /// wi = 2 (wo . h) h - wo, which is above the horizon exactly for theta_h < theta_max(phi),
 ///   cos 2 theta_max = -x / sqrt(c^2 + x^2),   x = s cos phi.
 /// S = (1 - cos theta_h) / (1 - cos theta_max). v is a half-angle sine of phi in [0, pi] from its nearer end, so that no
 /// trigonometric function is needed: 1 - cos phi = 4 v^2 below v = 1/2, 1 + cos phi = 4 (1 - v)^2 above. The other half of
 /// the directions mirrors this one.
+template <class T>
 struct HalfVectorMap {
-  double s, c;
+  T s, c;
 
-  explicit HalfVectorMap(double cos_o) noexcept
-      : s(std::sqrt(std::max(1 - cos_o * cos_o, 0.0))), c(std::max(cos_o, static_cast<double>(min_view_cosine))) {}
+  HalfVectorMap(T sin_o, T cos_o) noexcept : s(sin_o), c(std::max(cos_o, static_cast<T>(min_view_cosine))) {}
 
-  static double cos_phi(double v) noexcept { return v <= 0.5 ? 1 - 4 * v * v : 4 * (1 - v) * (1 - v) - 1; }
-
-  /// d phi / d v
-  static double stretch(double v) noexcept {
-    const double w = std::min(v, 1 - v);
-    return 4 / std::sqrt(2 - 4 * w * w);
-  }
+  /// v as the distance from its nearer end.
+  struct Azimuth {
+    T w;
+    bool near;
+  };
+  static Azimuth azimuth(T v) noexcept { return v <= T(0.5) ? Azimuth{v, true} : Azimuth{1 - v, false}; }
+  static T cos_phi(Azimuth a) noexcept { return a.near ? 1 - 4 * a.w * a.w : 4 * a.w * a.w - 1; }
 
   /// 1 - cos theta_max, without cancellation on either side.
-  double horizon(double cos_phi) const noexcept {
-    const double x = s * cos_phi, r = std::hypot(c, x), sum = r + std::fabs(x);
-    const double large = sum / r, small = c * c / (r * sum);  // 1 + |x| / r and 1 - |x| / r
-    return x >= 0 ? 0.5 * large / (1 + std::sqrt(0.5 * small)) : 0.5 * small / (1 + std::sqrt(0.5 * large));
+  T horizon(T cos_phi) const noexcept {
+    const T x = s * cos_phi, r = std::sqrt(c * c + x * x), sum = r + std::fabs(x), inverse = T(0.5) / (r * sum);
+    const T large = sum * sum * inverse, small = c * c * inverse;  // (1 + |x| / r) / 2 and (1 - |x| / r) / 2
+    return x >= 0 ? large / (1 + std::sqrt(small)) : small / (1 + std::sqrt(large));
+  }
+
+  /// Solid angle per area of (S, v) on one side: d omega_i = 4 (wo . h) d omega_h, d phi / d v = 4 / sqrt(2 - 4 w^2).
+  static T area(Azimuth a, T wo_h, T top) noexcept { return 16 * wo_h * top / std::sqrt(2 - 4 * a.w * a.w); }
+
+  struct Half {
+    T x, y, z;   ///< half vector: along the view's azimuth, across it, along the normal
+    T wo_h;      ///< its cosine with the view
+    T area;      ///< solid angle of wi per area of (S, v)
+  };
+
+  Half half_vector(T height, T v) const noexcept {
+    const Azimuth a = azimuth(v);
+    const T cosine = cos_phi(a), sine = a.w * std::sqrt(8 - 16 * a.w * a.w), top = horizon(cosine);
+    const T y = height * top, rho = std::sqrt(y * (2 - y));
+    Half h{rho * cosine, rho * sine, 1 - y, 0, 0};
+    h.wo_h = s * h.x + c * h.z;
+    h.area = area(a, h.wo_h, top);
+    return h;
   }
 
   struct Point {
-    glm::dvec3 wi;
-    double area;  ///< solid angle of wi per area of (S, v)
+    T height, v, area;
   };
 
-  Point direction(double height, double v) const noexcept {
-    const double cosine = cos_phi(v), sine = std::sqrt(std::max(1 - cosine * cosine, 0.0)), top = horizon(cosine);
-    const double y = height * top, rho = std::sqrt(y * (2 - y));
-    const glm::dvec3 h{rho * cosine, rho * sine, 1 - y};
-    const double d = s * h.x + c * h.z;
-    return {{2 * d * h.x - s, 2 * d * h.y, 2 * d * h.z - c}, 4 * d * top * stretch(v)};
-  }
-
-  struct Square {
-    double height, v;
-  };
-
-  /// The point of a direction above the horizon, on either side.
-  Square point(const glm::dvec3& wi) const noexcept {
-    const double x = wi.x + s, y = wi.y, z = wi.z + c, across2 = y * y, rho2 = x * x + across2, rho = std::sqrt(rho2);
-    const double length = std::sqrt(rho2 + z * z), divisor = rho * (rho + std::fabs(x));
-    const double w = divisor > 0 ? 0.5 * std::sqrt(across2 / divisor) : 0, v = x >= 0 ? w : 1 - w;
-    return {std::min(rho2 / (length * (length + z)) / horizon(cos_phi(v)), 1.0), v};
+  /// The point of a direction above the horizon, on either side, by the sum wi + wo.
+  Point point(T along, T across, T z) const noexcept {
+    const T across2 = across * across, rho2 = along * along + across2, rho = std::sqrt(rho2);
+    const T length = std::sqrt(rho2 + z * z), divisor = std::max(rho * (rho + std::fabs(along)), T(1e-36));
+    const Azimuth a{T(0.5) * std::sqrt(std::min(across2 / divisor, T(1))), along >= 0};
+    const T top = horizon(cos_phi(a));
+    return {std::min(rho2 / (length * (length + z) * top), T(1)), a.near ? a.w : 1 - a.w, area(a, T(0.5) * length, top)};
   }
 };
 

@@ -2,7 +2,6 @@
 // The map of sample/half_vector_map.h and its inverse, for a vector of views, and the cosine density.
 #include "sample/half_vector_map.h"
 
-#include <limits>
 #include <numbers>
 
 #include "eval/eval_kernel-inl.h"
@@ -27,9 +26,8 @@ using kernel::VI;
 
 /// Random numbers into [0, 1), NaN to 0.
 HWY_INLINE V into_unit_interval(V u) {
-  constexpr float largest_below_one = 1.0f - 0.5f * std::numeric_limits<float>::epsilon();
   const V zero = hn::Zero(Floats());
-  return hn::Min(hn::IfThenElseZero(hn::Gt(u, zero), u), set(largest_below_one));
+  return hn::Min(hn::IfThenElseZero(hn::Gt(u, zero), u), set(below_one));
 }
 
 /// Views as the map wants them: height and the azimuth that v counts from.

@@ -5,6 +5,7 @@
 #include "sample/albedo.h"
 #include "sample/batch_sample.h"
 #include "sample/density.h"
+#include "sample/single_sample.h"
 
 #include <algorithm>
 
@@ -15,9 +16,7 @@ bool Material::sampling() const noexcept { return sampling_ != nullptr; }
 std::uint64_t Material::sampling_bytes() const noexcept { return sampling_ ? sampling_->bytes() : 0; }
 
 float Material::pdf(const Vec3f& wi, const Vec3f& wo) const noexcept {
-  float pdf = 0;
-  sample::pdf_batch(sampling_.get(), {&wi.x, &wi.y, &wi.z, 1}, {&wo.x, &wo.y, &wo.z, 1}, &pdf);
-  return pdf;
+  return sample::pdf_single(sampling_.get(), wi, wo);
 }
 
 float Material::eval_pdf(const Vec3f& wi, const Vec3f& wo, std::span<float> f) const noexcept {
@@ -39,7 +38,7 @@ void Material::eval_pdf(DirectionSpan wi, DirectionSpan wo, PlanarSpan f, float*
 Sample Material::sample(const Vec3f& wo, const Vec3f& u, std::span<float> weight, TransportMode) const noexcept {
   weight = weight.first(static_cast<std::size_t>(channels()));
   Sample s;
-  sample::draw_batch(sampling_.get(), {&wo.x, &wo.y, &wo.z, 1}, {&u.x, &u.y, &u.z, 1}, {&s.wi.x, &s.wi.y, &s.wi.z, 1}, &s.pdf);
+  s.pdf = sample::draw_single(sampling_.get(), wo, u, s.wi);
   if (!(s.pdf > 0.0f)) {
     std::fill(weight.begin(), weight.end(), 0.0f);
     return s;
