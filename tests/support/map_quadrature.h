@@ -33,12 +33,12 @@ struct CellIntegrals {
   std::vector<double> pdf, f_cos;
 };
 
-/// `turned`: around the half vectors of the turned view, where retro lobes are.
-inline CellIntegrals integrate(const Material& m, const Vec3f& wo, const HemisphereGrid& grid, bool turned = false) {
+/// Adds the integrals over the directions on one side (along = 1: that of the view, -1: the other one, 0: both), with
+/// points around the half vectors of the view or, `turned`, of the view turned by pi.
+inline void add_integrals(const Material& m, const Vec3f& wo, const HemisphereGrid& grid, bool turned, int along, CellIntegrals& out) {
   constexpr std::size_t rows = 500, columns = 700;
-  CellIntegrals out{std::vector<double>(grid.cells()), std::vector<double>(grid.cells())};
   const double rho = std::hypot(static_cast<double>(wo.x), static_cast<double>(wo.y)), side = turned ? -1 : 1;
-  const double e_x = rho > 0 ? side * static_cast<double>(wo.x) / rho : 1, e_y = rho > 0 ? side * static_cast<double>(wo.y) / rho : 0;
+  const double e_x = rho > 0 ? side * static_cast<double>(wo.x) / rho : side, e_y = rho > 0 ? side * static_cast<double>(wo.y) / rho : 0;
   const sample::HalfVectorMap<double> map(rho, static_cast<double>(wo.z));
   DirectionBatch view(2 * columns);
   for (std::size_t k = 0; k < view.size(); ++k) view.x[k] = wo.x, view.y[k] = wo.y, view.z[k] = wo.z;
@@ -50,9 +50,11 @@ inline CellIntegrals integrate(const Material& m, const Vec3f& wo, const Hemisph
       // heights by cubes: most points where narrow lobes are
       const double t = (static_cast<double>(j) + 0.5) / columns, height = t * t * t;
       const auto h = map.half_vector(height, (static_cast<double>(i) + 0.5) / rows);
+      const double x = 2 * h.wo_h * h.x - map.s;
+      const bool counts = along == 0 || (side * x > 0) == (along > 0);
       for (const double mirror : {1.0, -1.0}) {
-        const double x = 2 * h.wo_h * h.x - map.s, y = 2 * h.wo_h * h.y * mirror;
-        area[wi.size()] = h.area * 3 * t * t / (rows * columns);
+        const double y = 2 * h.wo_h * h.y * mirror;
+        area[wi.size()] = counts ? h.area * 3 * t * t / (rows * columns) : 0;
         wi.push(Vec3f(Vec3d(x * e_x - y * e_y, x * e_y + y * e_x, 2 * h.wo_h * h.z - map.c)));
       }
     }
@@ -62,6 +64,16 @@ inline CellIntegrals integrate(const Material& m, const Vec3f& wo, const Hemisph
       out.pdf[cell] += area[k] * static_cast<double>(pdf[k]);
       out.f_cos[cell] += area[k] * static_cast<double>(f[k] * wi.z[k]);
     }
+  }
+}
+
+inline CellIntegrals integrate(const Material& m, const Vec3f& wo, const HemisphereGrid& grid, bool has_retro_lobes) {
+  CellIntegrals out{std::vector<double>(grid.cells()), std::vector<double>(grid.cells())};
+  if (has_retro_lobes) {
+    add_integrals(m, wo, grid, false, -1, out);
+    add_integrals(m, wo, grid, true, 1, out);
+  } else {
+    add_integrals(m, wo, grid, false, 0, out);
   }
   return out;
 }

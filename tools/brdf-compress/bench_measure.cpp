@@ -72,7 +72,7 @@ BenchRow BenchMaterial::begin_row(std::uint64_t bytes) const {
 BenchRow BenchMaterial::measure_level(const EncodeResult& encoded, EvalLevel level) const {
   BenchRow row = begin_row(encoded.bytes.size());
   row.level = level;
-  const Material m = decode_file(encoded.bytes, level, false, source_.path());
+  const Material m = decode_file(encoded.bytes, level, false, source_.path(), true);
   row.decode_us = 1e6 * undisturbed_seconds([&] { decode_file(encoded.bytes, level, false, source_.path()); });
   row.resident_bytes = m.resident_bytes();
   measure_speed(m, row);

@@ -15,7 +15,7 @@ void pdf_batch(const Material::Sampling* s, DirectionSpan wi, DirectionSpan wo, 
 /// Directions and their densities, without weights.
 void draw_batch(const Material::Sampling* s, DirectionSpan wo, DirectionSpan u, MutableDirectionSpan wi, float* pdf) noexcept;
 
-/// See Material::sample. Rejected rows are all zero.
+/// See Material::sample. Rows of views that are not above the horizon are all zero.
 void sample_batch(const eval::Tables& t, const Material::Sampling* s, DirectionSpan wo, DirectionSpan u,
                   MutableDirectionSpan wi, float* pdf, PlanarSpan weight) noexcept;
 

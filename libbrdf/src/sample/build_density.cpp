@@ -40,13 +40,14 @@ double view_cosine(std::size_t k) {
 }
 
 /// Edges at equal steps of a function that rises like the integrals of GGX lobes at normal incidence, y (1 + k) / (y + k)
-/// with k = alpha^2 / 2. Beside the narrowest lobe there are wider ones, up to the whole range: at grazing views the
-/// horizon takes the lobe apart, and measured lobes have long tails.
+/// with k = alpha^2 / 2: the narrowest lobe, wider ones up to the whole range, because at grazing views the horizon takes
+/// the lobe apart and measured lobes have long tails, and a line.
 void place_edges(double alpha, Table& t) {
   const auto integral = [narrowest = 0.5 * alpha * alpha](double y) {
+    const auto lobe = [y](double k) { return y * (1 + k) / (y + k); };
     double sum = 0, count = 0;
-    for (double k = narrowest; k < 0.5; k *= 16, ++count) sum += y * (1 + k) / (y + k);
-    return count > 0 ? 0.75 * sum / count + 0.25 * y : y;
+    for (double k = narrowest; k < 0.5; k *= 16, ++count) sum += lobe(k);
+    return count > 0 ? 0.2 * lobe(narrowest) + 0.55 * sum / count + 0.25 * y : y;
   };
   for (std::size_t i = 1; i < row_cells; ++i) {
     const double wanted = static_cast<double>(i) / row_cells;

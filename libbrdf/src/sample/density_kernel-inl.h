@@ -113,9 +113,12 @@ HWY_INLINE RowsOfPair<4> conditional_rows(const Table& t, const CellBlock& b, st
 template <class Rows>
 HWY_INLINE void search_rows(std::size_t size, const float* HWY_RESTRICT target, CellBlock& b, const Rows& rows) {
   for (std::size_t i = 0; i < size; ++i) b.cell[i] = static_cast<std::int32_t>(rows(i).quarter(target[i]));
-  for (std::size_t i = 0; i < size; ++i)
-    b.cell[i] = static_cast<std::int32_t>(rows(i).cell(static_cast<std::size_t>(b.cell[i]), target[i]));
-  for (std::size_t i = 0; i < size; ++i) rows(i).store_node(static_cast<std::size_t>(b.cell[i]), b.node + 4 * i);
+  for (std::size_t i = 0; i < size; ++i) {
+    const auto r = rows(i);
+    const std::size_t cell = r.cell(static_cast<std::size_t>(b.cell[i]), target[i]);
+    b.cell[i] = static_cast<std::int32_t>(cell);
+    r.store_node(cell, b.node + 4 * i);
+  }
 }
 
 HWY_INLINE void read_edge(const Table& t, CellBlock& b, std::size_t i) {

@@ -111,7 +111,7 @@ HWY_INLINE void finish_draw(const DrawBlock& b, std::size_t at, Drawn& out) {
   hn::LoadInterleaved4(d, b.cells.node + 4 * at, before, left, after, right);
   hn::LoadInterleaved2(d, b.cells.edge + 2 * at, lower, upper);
   const V width = hn::Sub(upper, lower);
-  const V in_cell = inverse_integral(left, right, kernel::quotient(hn::Sub(hn::Load(d, b.target + at), before), width));
+  const V in_cell = inverse_integral(hn::Mul(left, width), hn::Mul(right, width), hn::Sub(hn::Load(d, b.target + at), before));
   const V height = hn::Min(hn::MulAdd(in_cell, width, lower), one), v = hn::Load(d, b.v + at);
   const auto near = hn::Le(v, set(0.5f));
   const Views w{{hn::Load(d, b.x + at), hn::Load(d, b.y + at), hn::Load(d, b.z + at)},

@@ -77,7 +77,7 @@ HWY_INLINE float draw_single(const Table& t, const Vec3f& wo, float u, float v, 
   const std::size_t cell = search(conditional, target);
   conditional.store_node(cell, node);
   const float width = t.edge[cell + 1] - t.edge[cell];
-  const float in_cell = inverse_integral(node[1], node[3], (target - node[0]) / width);
+  const float in_cell = inverse_integral(node[1] * width, node[3] * width, target - node[0]);
   Map::Half h = w.map.half_vector(std::min(t.edge[cell] + in_cell * width, 1.0f),
                                   (static_cast<float>(column) + to_column) * (1 / columns));
   if (sided < 0) h.y = -h.y;
