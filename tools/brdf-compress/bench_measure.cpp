@@ -31,7 +31,7 @@ bool same_values(const Material& a, const Material& b) {
 
 int count_bugs(const EncodeResult& encoded, const BenchSetting& setting, const BenchRow& row, EvalLevel level,
                const std::string& path) {
-  const auto decode = [&] { return decode_file(encoded.bytes, level, false, path); };
+  const auto decode = [&] { return decode_file(encoded.bytes, level, false, path, true); };
   const Material m = decode();
   int bugs = 0;
   bugs += setting.target_size && encoded.bytes.size() > *setting.target_size ? 1 : 0;
