@@ -100,7 +100,7 @@ TEST(SampleExtremes, NarrowLobesFollowTheirDistributionDownToTheSmallestAlpha) {
       ASSERT_GT(share.size(), n * 95 / 100);
       EXPECT_GT(peak, (alpha < 5e-4 ? 0.8 : 0.9) / (4 * 3.1416 * alpha * alpha));
       // of the table's cells, 32 from 0 to 1, few lie in the narrowest lobes
-      const double bound = alpha < 5e-4 ? 0.12 : 1.95 / std::sqrt(static_cast<double>(n)) + (alpha >= 0.1 ? 0.02 : 0.002);
+      const double bound = alpha < 5e-4 ? 0.12 : alpha < 5e-3 ? 0.03 : alpha < 0.1 ? 0.002 : 0.02;
       std::sort(share.begin(), share.end());
       double distance = 0;
       for (std::size_t i = 0; i < share.size(); ++i)
