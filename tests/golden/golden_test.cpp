@@ -45,7 +45,7 @@ double tolerance(const std::string& level, bool in_slices) {
 TEST(Golden, EveryFileIsThere) {
   std::vector<std::string> names;
   for (const fs::path& file : golden_files()) names.push_back(file.stem().string());
-  for (const char* name : {"rgb-lobes", "rgb-reciprocal-layers", "scalar-one-way", "spectral-restart", "rgb-slices"})
+  for (const char* name : {"rgb-lobes", "rgb-reciprocal-layers", "scalar-one-way", "spectral-restart", "rgb-slices", "rgb-mirror-asymmetric"})
     EXPECT_EQ(std::count(names.begin(), names.end(), name), 1) << name;
 }
 
@@ -122,6 +122,9 @@ TEST(Golden, FilesSayWhatTheySaid) {
   EXPECT_EQ(layers.errors[6].psnr_env, 42.25);
   const MaterialInfo one_way = info("scalar-one-way");
   EXPECT_FALSE(one_way.reciprocal);
+  EXPECT_TRUE(one_way.mirror_symmetric);
+  EXPECT_TRUE(info("rgb-mirror-asymmetric").reciprocal);
+  EXPECT_FALSE(info("rgb-mirror-asymmetric").mirror_symmetric);
   EXPECT_EQ(one_way.channels.model, ChannelModel::scalar);
   EXPECT_EQ(info("spectral-restart").channels.wavelengths_nm, (std::vector<float>{400, 475, 550, 625}));
   EXPECT_EQ(info("rgb-lobes").refinements_total, 0);

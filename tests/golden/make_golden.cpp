@@ -41,7 +41,7 @@ Content frame(const Measurement& m, bool reciprocal) {
                                                   : ChannelTransform::cosine;
   c.lobes = lobes_of(m.channels.count);
   c.residual.basis = {17, 9, 8, 9, 118, 0, 0};
-  c.residual.reciprocal = reciprocal;
+  c.residual.azimuth = reciprocal ? residual::Azimuth::symmetric : residual::Azimuth::one_way;
   c.residual.channels = m.channels.count;
   return c;
 }
@@ -50,11 +50,11 @@ Content frame(const Measurement& m, bool reciprocal) {
 encode::Quantised quantised(const Measurement& m, const Content& c, std::uint32_t count, int step_code) {
   const residual::Basis basis = residual::basis_of(c.residual.basis);
   const auto order =
-      residual::coefficient_order(residual::order_shapes[c.residual.basis.shape], c.residual.reciprocal, count);
+      residual::coefficient_order(residual::order_shapes[c.residual.basis.shape], residual::even_only(c.residual.azimuth), count);
   const encode::Bins bins = encode::sample_bins(m, c.lobes, basis, 30, 18, 12);
   const encode::ErrorModel model =
-      encode::cell_model(bins, encode::cell_weights(bins, basis.epsilon, {}), basis, order, c.component.transform);
-  return encode::quantise(model, encode::solve_coefficients(model), order, c.residual.reciprocal,
+      encode::cell_model(bins, encode::cell_weights(bins, basis.epsilon, {}), basis, c.residual.azimuth, order, c.component.transform);
+  return encode::quantise(model, encode::solve_coefficients(model), order, residual::even_only(c.residual.azimuth),
                           {residual::step_of(step_code), 1.0, 3});
 }
 
@@ -126,8 +126,20 @@ std::vector<NamedContent> make_contents() {
     const Measurement m = test::slice_measurement({4, 8, 24, 16, 0.4});
     Content c = frame(m, false);
     c.lobes = container::quantise_lobes({3, {{LobeKind::ggx, 0.4, 1, {0.6, 0.65, 0.7}}}});
-    const auto candidate = encode::Candidate::in_slices(m, c, c.residual.basis, {8, 4, 160}, encode::effort_step(0), {});
+    const auto candidate = encode::Candidate::in_slices(encode::SourceData(m, c, encode::effort_step(0)), c.residual.basis, {8, 4, 160});
     all.push_back({"rgb-slices", candidate.value().encode(112, 0.05, 3).content});
+  }
+  {
+    const Measurement m = test::small_measurement({90, 45, 60}, 3, [](const Vec3d& wi, const Vec3d& wo, std::span<double> f) {
+      const double turn = (wi.x * wo.y - wi.y * wo.x) * (wi.z - wo.z);  // reciprocal, and odd in the mirror
+      for (std::size_t c = 0; c < f.size(); ++c) f[c] = 0.25 + 0.02 * static_cast<double>(c) + 0.15 * turn;
+    });
+    Content c = frame(m, true);
+    c.lobes = container::quantise_lobes({3, {{LobeKind::lambert, 1, 1, {0.8, 0.85, 0.9}}}});
+    c.residual.azimuth = residual::Azimuth::reciprocal;
+    c.component.mirror_symmetric = false;
+    add_layers(c, m, 90, 72, 2);
+    all.push_back({"rgb-mirror-asymmetric", std::move(c)});
   }
   return all;
 }

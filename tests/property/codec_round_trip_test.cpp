@@ -35,7 +35,7 @@ rc::Gen<std::int32_t> coefficient() {
 residual::ResidualCode any_residual(int channels, bool reciprocal) {
   residual::ResidualCode code;
   code.channels = channels;
-  code.reciprocal = reciprocal;
+  code.azimuth = reciprocal ? residual::Azimuth::symmetric : residual::Azimuth::one_way;
   code.basis.kappa_h = static_cast<std::uint8_t>(*rc::gen::inRange(0, 32));
   code.basis.kappa_d = static_cast<std::uint8_t>(*rc::gen::inRange(0, 16));
   code.basis.window_h = static_cast<std::uint8_t>(*rc::gen::inRange(0, 16));

@@ -44,7 +44,7 @@ inline residual::ResidualCode residual_of(int channels, bool reciprocal, const s
                                           std::uint32_t seed = 1) {
   residual::ResidualCode code;
   code.channels = channels;
-  code.reciprocal = reciprocal;
+  code.azimuth = reciprocal ? residual::Azimuth::symmetric : residual::Azimuth::one_way;
   code.basis = {16, 9, 5, 7, 118, 1};
   Lcg random(seed);
   for (const LayerShape& shape : shapes) {

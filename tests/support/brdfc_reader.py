@@ -60,9 +60,9 @@ class Brdfc:
         require(r.varint() == 1, "more than one component")
         first, second = r.u8(), r.u8()
         self.axes = first >> 2 & 7
-        require(first & 0x83 == 0 and self.axes < 2 and first & 0x20 and second & 0xE0 == 0,
+        self.mirror, self.reciprocal = bool(first & 0x20), bool(first & 0x40)
+        require(first & 0x83 == 0 and self.axes < 2 and (self.mirror or self.reciprocal) and second & 0xE0 == 0,
                 "the component is of a later version")
-        self.reciprocal = bool(first & 0x40)
         require(not (self.axes and self.reciprocal), "slices cannot be reciprocal")
         self.model, self.transform, self.channels = second & 3, second >> 2 & 7, r.varint()
         require(self.transform < 3, "unknown channel transform")
@@ -137,8 +137,8 @@ class Brdfc:
         if self.axes == 1:
             self.frame = SliceFrame(rest)
             rest, reach = self.frame.rest, self.frame.reach()
-        self.order = coefficient_order(shape, self.reciprocal, count, reach)
-        self.decoder = CoefficientDecoder(self.reciprocal)
+        self.order = coefficient_order(shape, self.reciprocal and self.mirror, count, reach)
+        self.decoder = CoefficientDecoder(self.reciprocal and self.mirror)
         return rest
 
     def read_layer(self, data):
@@ -194,14 +194,21 @@ class Brdfc:
         theta_h, theta_d, cos_phi = half_difference(wi, wo)
         u_h, u_d, _ = self.coordinates(wi, wo)
         phi = math.acos(cos_phi)
+        if (wi[0] + wo[0]) * (wi[1] - wo[1]) < (wi[1] + wo[1]) * (wi[0] - wo[0]):
+            phi = -phi
         window = (math.sin(theta_h) / math.hypot(math.sin(theta_h), self.window_h)
                   * math.sin(theta_d) / math.hypot(math.sin(theta_d), self.window_d))
         r = [0.0] * n
         for j, a in self.coefficients.items():
             k, l, m = self.order[j]
-            value = math.cos(math.pi * k * u_h) * math.cos(math.pi * l * u_d) * math.cos(m * phi) * window ** m
+            value = math.cos(math.pi * k * u_h) * math.cos(math.pi * l * u_d) * self.azimuth(m, phi, window)
             r = [x + y * value for x, y in zip(r, a)]
         return self.with_ratio(wi, wo, [math.exp(min(max(y, -9.7), 10.39)) for y in r])
+
+    def azimuth(self, m, phi, window):
+        if m % 2 and self.reciprocal:
+            return math.sin((m + 1) * phi) * window ** (m + 1)
+        return math.cos(m * phi) * window ** m
 
     def eval_resampled(self, wi, wo):
         """f as libbrdf has it at level "balanced"; of files with axes 1."""

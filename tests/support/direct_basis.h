@@ -34,6 +34,11 @@ inline ResidualAngles residual_angles(const Vec3d& wi, const Vec3d& wo) noexcept
   return a;
 }
 
+/// The function of phi_d with number m.
+inline double of_azimuth(int m, double phi_d, residual::Azimuth azimuth) {
+  return azimuth == residual::Azimuth::reciprocal && m % 2 == 1 ? std::sin((m + 1) * phi_d) : std::cos(m * phi_d);
+}
+
 /// log of the ratio of channel `channel`.
 inline double direct_log_ratio(const residual::Coefficients& c, std::size_t channel, const ResidualAngles& a) {
   const auto axis = [](double theta, double kappa) {
@@ -53,7 +58,7 @@ inline double direct_log_ratio(const residual::Coefficients& c, std::size_t chan
     for (std::size_t t = 0; t < n; ++t) value += matrix[t * n + channel] * static_cast<double>(c.values[t][j]);
     const residual::Frequency f = c.order[j];
     sum += value * std::cos(std::numbers::pi * f.k * u_h) * std::cos(std::numbers::pi * f.l * u_d) *
-           std::cos(f.m * a.phi_d) * std::pow(w, f.m);
+           of_azimuth(f.m, a.phi_d, c.azimuth) * std::pow(w, c.azimuth == residual::Azimuth::reciprocal && f.m % 2 == 1 ? f.m + 1 : f.m);
   }
   return std::clamp(sum, -9.7, 10.39);
 }

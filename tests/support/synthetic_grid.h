@@ -10,6 +10,7 @@
 #include <brdf/lobes.h>
 #include <brdf/material.h>
 
+#include <algorithm>
 #include <cmath>
 #include <cstdint>
 #include <memory>
@@ -20,7 +21,8 @@ namespace brdf::test {
 
 struct GridShape {
   int n_h = 48, n_d = 28, n_p = 24, channels = 3;
-  bool reciprocal = true;
+  bool reciprocal = true;       ///< and mirror-symmetric, unless
+  bool mirror_symmetric = true;
 };
 
 /// A smooth ratio around 1, times exp of noise of the given amplitude at every node.
@@ -30,7 +32,9 @@ inline residual::ResidualGrid synthetic_grid(const GridShape& shape, double nois
   g.n_d = shape.n_d;
   g.n_p = shape.n_p;
   g.channels = shape.channels;
-  g.reciprocal = shape.reciprocal;
+  g.azimuth = !shape.reciprocal        ? residual::Azimuth::one_way
+              : shape.mirror_symmetric ? residual::Azimuth::symmetric
+                                       : residual::Azimuth::reciprocal;
   g.kappa_h = 0.05f;
   g.kappa_d = 2.0f;
   g.epsilon = 0.01f;
@@ -44,6 +48,10 @@ inline residual::ResidualGrid synthetic_grid(const GridShape& shape, double nois
           const double smooth = 0.5 * std::sin(5 * x + c) + 0.3 * std::cos(4 * y - 2 * z);
           g.ratio.push_back(residual::half_from_float(static_cast<float>(std::exp(smooth + noise * uniform(random)))));
         }
+  if (g.azimuth == residual::Azimuth::reciprocal)  // phi_d is modulo pi: the last node is the first one
+    for (std::size_t line = 0; line < g.ratio.size(); line += static_cast<std::size_t>(g.n_p * g.channels))
+      std::copy_n(g.ratio.begin() + static_cast<std::ptrdiff_t>(line), g.channels,
+                  g.ratio.begin() + static_cast<std::ptrdiff_t>(line) + (g.n_p - 1) * g.channels);
   // what lies behind the last node must not matter, so it is not a number that could pass for one
   g.ratio.insert(g.ratio.end(), 8, residual::half_max);  // finite, and anything but harmless where it is used
   return g;
@@ -79,7 +87,7 @@ inline Material with_sampling(std::shared_ptr<const Material::Impl> impl) {
 inline Material material_of(const LobeSet& lobes, residual::ResidualGrid grid = {}) {
   MaterialInfo info;
   info.channels.count = lobes.channels;
-  info.reciprocal = grid.empty() || grid.reciprocal;
+  info.reciprocal = grid.empty() || residual::is_reciprocal(grid.azimuth);
   const EvalLevel level = grid.empty() ? EvalLevel::fast : EvalLevel::balanced;
   return with_sampling(eval::make_impl(std::move(info), lobes, std::move(grid), level));
 }

@@ -25,7 +25,7 @@ void expect_equal(const residual::ResidualCode& a, const residual::ResidualCode&
   EXPECT_EQ(a.basis.window_d, b.basis.window_d);
   EXPECT_EQ(a.basis.epsilon, b.basis.epsilon);
   EXPECT_EQ(a.basis.shape, b.basis.shape);
-  EXPECT_EQ(a.reciprocal, b.reciprocal);
+  EXPECT_EQ(a.azimuth, b.azimuth);
   ASSERT_EQ(a.layers.size(), b.layers.size());
   for (std::size_t i = 0; i < a.layers.size(); ++i) {
     EXPECT_EQ(a.layers[i].step, b.layers[i].step);
@@ -140,7 +140,7 @@ TEST(Pack, ContentsThatNobodyCouldReadAreRefused) {
     expect_refused("f90", [bad](Content& c) { c.lobes.lobes[1].f90 = bad; });
     expect_refused("alpha", [bad](Content& c) { c.lobes.lobes[1].alpha = bad; });
   }
-  expect_refused("reciprocity", [](Content& c) { c.residual.reciprocal = false; });
+  expect_refused("symmetries", [](Content& c) { c.residual.azimuth = residual::Azimuth::one_way; });
   expect_refused("channels", [](Content& c) { c.residual.channels = 1; });
   expect_refused("basis", [](Content& c) { c.residual.basis.kappa_h = 32; });
   expect_refused("basis", [](Content& c) { c.residual.basis.shape = 8; });

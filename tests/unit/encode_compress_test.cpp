@@ -162,7 +162,7 @@ TEST(Compress, FinerErrorTargetsCostMoreBytes) {
   }
 }
 
-TEST(Compress, ErrorTargetsOutOfReachSayWhatIsInReach) {
+TEST(Compress, ErrorTargetsOutOfReachSayWhatIsInReachSlow) {
   EncodeOptions o = quick();
   o.target_error = ErrorTarget{Metric::log_mae, 1e-9};
   expect_error(ErrorCode::target_not_met, {"log_mae", "best reachable"}, [&] { compress(bumpy_measurement(), o); });

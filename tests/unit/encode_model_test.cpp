@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 // The quadratic error model against sums over its cells.
 #include "encode/bins.h"
+#include "encode/dense_kernels.h"
 #include "encode/distortion.h"
 #include "encode/error_model.h"
 #include "encode/quantiser.h"
@@ -17,6 +18,7 @@
 namespace brdf::encode {
 namespace {
 
+using residual::Azimuth;
 using residual::BasisCodes;
 using residual::ChannelTransform;
 
@@ -31,14 +33,16 @@ struct Setting {
   std::vector<double> weights;
   std::vector<residual::Frequency> order;
   ChannelTransform transform;
+  Azimuth azimuth;
 };
 
-Setting setting(bool reciprocal, int channels, std::uint32_t count) {
-  const Measurement m = test::bumpy_measurement({20, 10, 12, !reciprocal}, channels, 0.4);
+Setting setting(Azimuth azimuth, int channels, std::uint32_t count) {
+  const Measurement m = test::bumpy_measurement({20, 10, 12, !residual::is_reciprocal(azimuth)}, channels, 0.4);
   Setting s{sample_bins(m, simple_lobes(channels), residual::basis_of(codes), 7, 6, 8),
             {},
-            residual::coefficient_order(residual::order_shapes[codes.shape], reciprocal, count),
-            channels == 3 ? ChannelTransform::opponent : ChannelTransform::cosine};
+            residual::coefficient_order(residual::order_shapes[codes.shape], residual::even_only(azimuth), count),
+            channels == 3 ? ChannelTransform::opponent : ChannelTransform::cosine,
+            azimuth};
   test::Lcg random(3);
   for (std::size_t i = 0; i < s.bins.cells(); ++i) s.weights.push_back(s.bins.valid[i] != 0 ? random.unit() : 0.0);
   return s;
@@ -54,7 +58,8 @@ std::vector<double> basis_at(const Setting& s, std::size_t cell) {
   std::vector<double> v;
   for (const residual::Frequency& f : s.order)
     v.push_back(std::cos(std::numbers::pi * f.k * s.bins.u_h[h]) * std::cos(std::numbers::pi * f.l * s.bins.u_d[d]) *
-                std::cos(f.m * std::acos(s.bins.cos_phi[p])) * std::pow(window, f.m));
+                test::of_azimuth(f.m, std::acos(s.bins.cos_phi[p]), s.azimuth) *
+                std::pow(window, residual::harmonic(f.m, s.azimuth).order));
   return v;
 }
 
@@ -67,7 +72,7 @@ double transformed(const Setting& s, std::size_t cell, std::size_t t) {
 }
 
 void expect_model_is_the_sum(const Setting& s) {
-  const ErrorModel model = cell_model(s.bins, s.weights, residual::basis_of(codes), s.order, s.transform);
+  const ErrorModel model = cell_model(s.bins, s.weights, residual::basis_of(codes), s.azimuth, s.order, s.transform);
   const std::size_t n = s.order.size(), channels = static_cast<std::size_t>(s.bins.channels);
   ASSERT_EQ(model.size, n);
   std::vector<double> gram(n * n, 0.0);
@@ -90,13 +95,14 @@ void expect_model_is_the_sum(const Setting& s) {
   EXPECT_NEAR(model.constant, constant, 1e-10 * scale);
 }
 
-TEST(CellModel, IsTheSumOverTheCells) { expect_model_is_the_sum(setting(false, 3, 90)); }
-TEST(CellModel, IsTheSumOverTheCellsForEvenHarmonics) { expect_model_is_the_sum(setting(true, 3, 90)); }
-TEST(CellModel, IsTheSumOverTheCellsForOtherChannels) { expect_model_is_the_sum(setting(false, 5, 40)); }
+TEST(CellModel, IsTheSumOverTheCells) { expect_model_is_the_sum(setting(Azimuth::one_way, 3, 90)); }
+TEST(CellModel, IsTheSumOverTheCellsForEvenHarmonics) { expect_model_is_the_sum(setting(Azimuth::symmetric, 3, 90)); }
+TEST(CellModel, IsTheSumOverTheCellsForSines) { expect_model_is_the_sum(setting(Azimuth::reciprocal, 3, 90)); }
+TEST(CellModel, IsTheSumOverTheCellsForOtherChannels) { expect_model_is_the_sum(setting(Azimuth::one_way, 5, 40)); }
 
 TEST(CellModel, ErrorIsTheWeightedSquareOfWhatIsMissing) {
-  const Setting s = setting(false, 3, 60);
-  const ErrorModel model = cell_model(s.bins, s.weights, residual::basis_of(codes), s.order, s.transform);
+  const Setting s = setting(Azimuth::one_way, 3, 60);
+  const ErrorModel model = cell_model(s.bins, s.weights, residual::basis_of(codes), s.azimuth, s.order, s.transform);
   test::Lcg random(8);
   std::vector<std::vector<double>> a(3, std::vector<double>(60));
   for (auto& channel : a)
@@ -115,8 +121,8 @@ TEST(CellModel, ErrorIsTheWeightedSquareOfWhatIsMissing) {
 }
 
 TEST(SolveCoefficients, IsAMinimum) {
-  const Setting s = setting(true, 3, 60);
-  const ErrorModel model = cell_model(s.bins, s.weights, residual::basis_of(codes), s.order, s.transform);
+  const Setting s = setting(Azimuth::symmetric, 3, 60);
+  const ErrorModel model = cell_model(s.bins, s.weights, residual::basis_of(codes), s.azimuth, s.order, s.transform);
   const auto best = solve_coefficients(model);
   const double error = model_error(model, best);
   EXPECT_GE(error, 0);
@@ -186,7 +192,8 @@ TEST(EnvironmentModel, AddsASumOfSquares) {
   model.size = order.size();
   model.gram.assign(model.size * model.size, 0.0);
   model.b.assign(3, std::vector<double>(model.size, 0.0));
-  add_environment(model, m, lobes, metrics::build_queries(0.02), basis, order, ChannelTransform::opponent, 1.0);
+  const metrics::QuerySet queries = metrics::build_queries(0.02);
+  add_environment(model, image_slopes(m, queries), lobes, queries, basis, Azimuth::symmetric, order, ChannelTransform::opponent, 1.0);
   EXPECT_GT(model.constant, 0);
   const auto n = static_cast<Eigen::Index>(model.size);
   const Eigen::MatrixXd g = Eigen::Map<const Eigen::MatrixXd>(model.gram.data(), n, n);
@@ -196,6 +203,32 @@ TEST(EnvironmentModel, AddsASumOfSquares) {
   const double best = model_error(model, solve_coefficients(model));
   EXPECT_GE(best, 0);
   EXPECT_LT(best, 0.1 * model.constant);  // the basis explains a smooth residual
+}
+
+// Tiles of any width, rows and columns left over included.
+TEST(DenseKernels, OuterProductsAreTheirSums) {
+  test::Lcg random(5);
+  for (const std::size_t n : {1U, 3U, 8U, 13U, 37U}) {
+    for (const std::size_t count : {1U, 5U, 130U}) {
+      std::vector<double> rows(n * count), gram(n * n), expected;
+      for (double& v : rows) v = random.unit() - 0.5;
+      for (std::size_t i = 0; i < n; ++i)
+        for (std::size_t j = 0; j <= i; ++j) gram[i * n + j] = gram[j * n + i] = random.unit();
+      expected = gram;
+      for (std::size_t p = 0; p < count; ++p)
+        for (std::size_t i = 0; i < n; ++i)
+          for (std::size_t j = i; j < n; ++j) expected[i * n + j] += 0.7 * rows[p * n + i] * rows[p * n + j];
+      add_outer_products(gram.data(), n, rows.data(), count, 0.7);
+      for (std::size_t i = 0; i < n; ++i)
+        for (std::size_t j = i; j < n; ++j) {
+          ASSERT_EQ(gram[i * n + j], expected[i * n + j]) << "to the last bit: one order of one sum";
+          ASSERT_EQ(gram[j * n + i], gram[i * n + j]);
+        }
+      std::vector<double> sum(n, 1.0);
+      add_scaled(sum.data(), rows.data(), -0.3, n);
+      for (std::size_t i = 0; i < n; ++i) ASSERT_EQ(sum[i], 1.0 + -0.3 * rows[i]);
+    }
+  }
 }
 
 }  // namespace

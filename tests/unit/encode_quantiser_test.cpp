@@ -25,7 +25,7 @@ std::vector<residual::Frequency> order_of(const ErrorModel& model) {
 residual::ResidualCode empty_code() {
   residual::ResidualCode code;
   code.basis = codes;
-  code.reciprocal = true;
+  code.azimuth = residual::Azimuth::symmetric;
   return code;
 }
 
@@ -34,7 +34,7 @@ ErrorModel model_of(std::uint32_t count) {
   const LobeSet lobes{3, {{LobeKind::lambert, 1, 1, {0.3, 0.25, 0.2}}}};
   const residual::Basis basis = residual::basis_of(codes);
   const Bins bins = sample_bins(m, lobes, basis, 18, 12, 8);
-  return cell_model(bins, cell_weights(bins, basis.epsilon, {}), basis,
+  return cell_model(bins, cell_weights(bins, basis.epsilon, {}), basis, residual::Azimuth::symmetric,
                     residual::coefficient_order(residual::order_shapes[0], true, count),
                     residual::ChannelTransform::opponent);
 }

@@ -22,7 +22,7 @@ std::uint32_t count_of(const ResidualCode& code) {
 }
 
 std::vector<std::vector<std::byte>> encode_all(const ResidualCode& code) {
-  LayerCodec codec(code.basis, code.reciprocal, code.channels, count_of(code));
+  LayerCodec codec(code.basis, even_only(code.azimuth), code.channels, count_of(code));
   std::vector<std::vector<std::byte>> out;
   for (std::size_t i = 0; i < code.layers.size(); ++i)
     out.push_back(encode_layer(codec, i == 0 ? nullptr : &code.layers[i - 1], code.layers[i]));
@@ -31,7 +31,7 @@ std::vector<std::vector<std::byte>> encode_all(const ResidualCode& code) {
 
 void expect_round_trip(const ResidualCode& code) {
   const auto bytes = encode_all(code);
-  LayerCodec codec(code.basis, code.reciprocal, code.channels, count_of(code));
+  LayerCodec codec(code.basis, even_only(code.azimuth), code.channels, count_of(code));
   std::vector<Layer> decoded;
   for (std::size_t i = 0; i < bytes.size(); ++i) {
     decoded.push_back(decode_layer(codec, i == 0 ? nullptr : &decoded[i - 1], bytes[i],

@@ -25,8 +25,8 @@ Coefficients coefficients_of(int channels, bool reciprocal, ChannelTransform tra
 void expect_nodes_match(const Coefficients& c, const GridSize& size) {
   const ResidualGrid grid = reconstruct(c, size);
   ASSERT_EQ(grid.channels, c.channels);
-  ASSERT_EQ(grid.n_p, c.reciprocal ? (size.n_p + 1) / 2 : size.n_p);
-  ASSERT_EQ(grid.ratio.size() * sizeof(std::uint16_t), grid_bytes(size, c.reciprocal, c.channels));
+  ASSERT_EQ(grid.n_p, c.azimuth == Azimuth::symmetric ? (size.n_p + 1) / 2 : size.n_p);
+  ASSERT_EQ(grid.ratio.size() * sizeof(std::uint16_t), grid_bytes(size, c.azimuth, c.channels));
   double worst = 0;
   for (int h = 0; h < grid.n_h; ++h)
     for (int d = 0; d < grid.n_d; ++d)
@@ -34,7 +34,7 @@ void expect_nodes_match(const Coefficients& c, const GridSize& size) {
         const auto theta = [](int i, int n, double kappa) {
           return 2 * std::asin(unwarp(static_cast<double>(i) / (n - 1), kappa) / std::numbers::sqrt2);
         };
-        const double v = static_cast<double>(p) / (grid.n_p - 1) * (c.reciprocal ? 0.5 : 1.0);
+        const double v = static_cast<double>(p) / (grid.n_p - 1) * (c.azimuth == Azimuth::symmetric ? 0.5 : 1.0);
         const ResidualAngles a{theta(h, grid.n_h, kappa_h_of(c.basis.kappa_h)),
                                theta(d, grid.n_d, kappa_d_of(c.basis.kappa_d)), std::acos(cos_phi_of(v))};
         for (int ch = 0; ch < grid.channels; ++ch) {
@@ -49,6 +49,12 @@ void expect_nodes_match(const Coefficients& c, const GridSize& size) {
 TEST(Reconstruct, NodesAreTheSumOfTheBasis) {
   expect_nodes_match(coefficients_of(3, false, ChannelTransform::opponent, 120), {17, 12, 9});
   expect_nodes_match(coefficients_of(3, true, ChannelTransform::opponent, 120), {17, 12, 9});
+}
+
+TEST(Reconstruct, SinesMakeTheMirrorAsymmetry) {
+  Coefficients c = coefficients_of(3, false, ChannelTransform::opponent, 120);
+  c.azimuth = Azimuth::reciprocal;
+  expect_nodes_match(c, {17, 12, 9});
 }
 
 TEST(Reconstruct, OtherTransformsAndChannelCounts) {

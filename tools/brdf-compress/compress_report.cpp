@@ -53,6 +53,9 @@ std::vector<std::string> summary_lines(const CompressReport& r) {
               significant(e.log_mae) + ", psnr_env " + fixed(e.psnr_env, 1) + " dB";
   }
   lines.push_back(errors);
+  // measured files are rarely symmetric: what that meant is said, unless nothing had to be decided
+  if (s.reciprocity_asymmetry > 0 || r.options.reciprocity != SymmetryMode::automatic) lines.push_back(s.reciprocity);
+  if (s.mirror_asymmetry > 0 || r.options.mirror != SymmetryMode::automatic) lines.push_back(s.mirror);
   lines.push_back(preset_name(r.options.effort) + ", " + fixed(seconds(s), 2) + " s; " + s.fit.stop_reason);
   return lines;
 }
@@ -89,6 +92,10 @@ Json json_row(const CompressReport& r) {
   row["refinements"] = s.refinements;
   row["coefficients"] = s.coefficients;
   row["reciprocal"] = s.reciprocal;
+  row["reciprocity"] = s.reciprocity;
+  row["reciprocity_asymmetry"] = s.reciprocity_asymmetry;
+  row["mirror"] = s.mirror;
+  row["mirror_asymmetry"] = s.mirror_asymmetry;
   row["stop_reason"] = s.fit.stop_reason;
   row["lobes"] = Json::array();
   for (const LobeReason& lobe : s.fit.lobes) {

@@ -1,10 +1,9 @@
 // SPDX-License-Identifier: Apache-2.0
+#include "compared_pair.h"
 #include "error_report_json.h"
-#include "material_source.h"
 #include "progress_bar.h"
 #include "standard_output.h"
 #include "text_table.h"
-#include "verb_options.h"
 #include "verbs.h"
 
 #include <memory>
@@ -12,19 +11,16 @@
 namespace brdf::cli {
 namespace {
 
-struct Options {
-  std::string reference, candidate;
-  SourceOptions source;
-  int threads = 0;
-  Reporting reporting;
-};
-
-Json json_row(const Options& o, const MaterialSource& candidate, const ErrorReport& report) {
+Json json_row(const PairOptions& o, const MaterialSource& candidate, const ErrorReport& report) {
   Json row;
   row["reference"] = o.reference;
   row["candidate"] = o.candidate;
   row["eval_level"] = candidate.is_compressed() ? Json(to_string(o.source.level)) : Json(nullptr);
-  row["bytes"] = candidate.file_bytes();
+  row["bytes"] = candidate.is_compressed() ? candidate.bytes().size() : candidate.file_bytes();
+  if (candidate.is_compressed()) {
+    row["refinements_read"] = candidate.material().info().refinements_read;
+    row["refinements_total"] = candidate.material().info().refinements_total;
+  }
   add_errors(row, report);
   return row;
 }
@@ -48,14 +44,9 @@ std::string table(const ErrorReport& r) {
   return bands.terminal() + '\n' + whole.terminal();
 }
 
-ExitCode run(const Options& o) {
-  const MaterialSource reference = MaterialSource::open(o.reference, o.source);
-  const MaterialSource candidate = MaterialSource::open(o.candidate, o.source);
+ExitCode run(const PairOptions& o) {
+  const auto [reference, candidate] = open_pair(o);
   const int channels = reference.channels().count;
-  if (candidate.channels().count != channels) {
-    throw Failure(ExitCode::bad_input, o.candidate + ": has " + std::to_string(candidate.channels().count) +
-                                           " channels, the reference has " + std::to_string(channels));
-  }
   ProgressBar bar(o.reporting);
   bar.show("reference", 0);
   const Comparison comparison(reference.rows(), channels, 1.0, thread_count(o.threads));
@@ -69,14 +60,9 @@ ExitCode run(const Options& o) {
 }  // namespace
 
 Verb add_compare(CLI::App& program) {
-  auto o = std::make_shared<Options>();
+  auto o = std::make_shared<PairOptions>();
   CLI::App* verb = program.add_subcommand("compare", "Every error figure of one file against another");
-  verb->add_option("REF", o->reference, "The reference, a measured or .brdfc file")->required();
-  verb->add_option("CAND", o->candidate, "The candidate, a measured or .brdfc file")->required();
-  add_eval_level(*verb, o->source.level);
-  add_position(*verb, o->source.position);
-  add_threads(*verb, o->threads);
-  add_reporting(*verb, o->reporting);
+  add_pair(*verb, *o, "The candidate, a measured or .brdfc file");
   verb->footer(
       "Errors are means over independent directions, uniform in solid angle, by the larger angle from the normal "
       "(bands in\n"

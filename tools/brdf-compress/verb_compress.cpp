@@ -99,6 +99,14 @@ Verb add_compress(CLI::App& program) {
       ->check(CLI::Range(0, 100))
       ->type_name("0..100")
       ->excludes(preset);
+  verb->add_flag_callback(
+          "--efforts",
+          [] {
+            print(effort_table());
+            throw CLI::Success();
+          },
+          "Print what each effort turns on, as Markdown, and exit")
+      ->trigger_on_parse();
   auto* size = verb->add_option("--target-size", o->encode.target_size, "Size of the whole file, never exceeded")
                    ->check(natural_number(1))
                    ->type_name("BYTES");

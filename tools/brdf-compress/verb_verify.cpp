@@ -19,6 +19,7 @@ namespace {
 
 struct Options {
   std::string file, reference;
+  std::optional<std::uint64_t> prefix;
   SamplePosition position = SamplePosition::edge;
   int threads = 0;
   Reporting reporting;
@@ -55,12 +56,14 @@ Json json_rows(const Checks& checks) {
 Checks examine(const Options& o) {
   ProgressBar bar(o.reporting);
   bar.show("reading", 0);
-  const MaterialSource file = MaterialSource::open(o.file, {});
+  const MaterialSource file = MaterialSource::open(o.file, {EvalLevel::balanced, o.prefix, {}});
   if (!file.is_compressed()) throw Failure(ExitCode::bad_input, o.file + ": is a measured file and no .brdfc");
   std::optional<MaterialSource> reference;
   if (!o.reference.empty()) reference = MaterialSource::open(o.reference, {EvalLevel::exact, {}, o.position});
 
-  Checks checks{{"the file decodes", true, static_cast<double>(file.file_bytes()), "checksums and structure", "bytes"}};
+  Checks checks{{"the file decodes", true, static_cast<double>(file.bytes().size()), "checksums and structure",
+                 "bytes, " + std::to_string(file.material().info().refinements_read) + " of " +
+                     std::to_string(file.material().info().refinements_total) + " refinements"}};
   checks.push_back(prefix_check(file.bytes(), file.path()));
   for (const EvalLevel level : {EvalLevel::fast, EvalLevel::balanced, EvalLevel::exact}) {
     bar.show("values", 0.05);
@@ -91,6 +94,7 @@ Verb add_verify(CLI::App& program) {
   verb->add_option("FILE", o->file, "A .brdfc file")->required();
   verb->add_option("--against", o->reference, "The measured file it was made from: checks the recorded errors")
       ->type_name("MEASURED");
+  add_prefix(*verb, o->prefix);
   add_position(*verb, o->position);
   add_threads(*verb, o->threads);
   add_reporting(*verb, o->reporting);

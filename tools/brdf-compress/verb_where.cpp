@@ -1,24 +1,16 @@
 // SPDX-License-Identifier: Apache-2.0
+#include "compared_pair.h"
 #include "error_bands.h"
 #include "error_report_json.h"
-#include "material_source.h"
 #include "progress_bar.h"
 #include "standard_output.h"
 #include "text_table.h"
-#include "verb_options.h"
 #include "verbs.h"
 
 #include <memory>
 
 namespace brdf::cli {
 namespace {
-
-struct Options {
-  std::string reference, candidate;
-  SourceOptions source;
-  int threads = 0;
-  Reporting reporting;
-};
 
 /// What a refinement of a file costs, and what it brought.
 struct Part {
@@ -33,7 +25,7 @@ std::vector<Part> parts_of(const MaterialSource& candidate, EvalLevel level) {
   const std::vector<std::uint64_t> ends = refinement_boundaries(candidate.bytes());
   const MaterialInfo& info = candidate.material().info();
   std::uint64_t before = 0;
-  for (std::size_t k = 0; k < ends.size(); ++k) {
+  for (std::size_t k = 0; k < ends.size() && ends[k] <= candidate.bytes().size(); ++k) {
     const EvalLevel recorded = k == 0 ? EvalLevel::fast : level == EvalLevel::fast ? EvalLevel::balanced : level;
     const RecordedError* found = nullptr;
     for (const RecordedError& e : info.errors)
@@ -92,13 +84,9 @@ Json json_rows(const std::vector<Part>& parts, const std::vector<ErrorBand>& ban
   return rows;
 }
 
-ExitCode run(const Options& o) {
-  const MaterialSource reference = MaterialSource::open(o.reference, o.source);
-  const MaterialSource candidate = MaterialSource::open(o.candidate, o.source);
+ExitCode run(const PairOptions& o) {
+  const auto [reference, candidate] = open_pair(o);
   const int channels = reference.channels().count;
-  if (candidate.channels().count != channels)
-    throw Failure(ExitCode::bad_input, o.candidate + ": has " + std::to_string(candidate.channels().count) +
-                                           " channels, the reference has " + std::to_string(channels));
   ProgressBar bar(o.reporting);
   bar.show("reference", 0);
   const BatchEval truth = reference.rows(), tried = candidate.rows();
@@ -118,14 +106,9 @@ ExitCode run(const Options& o) {
 }  // namespace
 
 Verb add_where(CLI::App& program) {
-  auto o = std::make_shared<Options>();
+  auto o = std::make_shared<PairOptions>();
   CLI::App* verb = program.add_subcommand("where", "Where the bytes of a file go, and where its errors are");
-  verb->add_option("REF", o->reference, "The reference, a measured or .brdfc file")->required();
-  verb->add_option("CAND", o->candidate, "The candidate, usually a .brdfc file")->required();
-  add_eval_level(*verb, o->source.level);
-  add_position(*verb, o->source.position);
-  add_threads(*verb, o->threads);
-  add_reporting(*verb, o->reporting);
+  add_pair(*verb, *o, "The candidate, usually a .brdfc file");
   verb->footer(
       "Refinements go from low to high frequency; each states its bytes and the error recorded with it. Then the figures\n"
       "that the candidate would have if it were perfect within one band of angles (degrees), or in one channel: the larger\n"

@@ -30,6 +30,9 @@ struct Preset {
 /// fastest, fast, medium, thorough, exhaustive. The one table that code, help and documents use.
 std::span<const Preset> presets() noexcept;
 
+/// What each step of the effort scale turns on, as a table in Markdown; docs/effort.md holds it.
+std::string effort_table();
+
 struct EncodeOptions {
   int effort = 50;                                  ///< 0 to 100
   std::optional<std::uint64_t> target_size;         ///< bytes of the whole file, never exceeded
@@ -48,6 +51,8 @@ struct EncodeSummary {
   std::uint64_t lobe_bytes = 0, residual_bytes = 0, overhead_bytes = 0;  ///< overhead: header, directory, checksums
   int lobes = 0, refinements = 0, coefficients = 0;                      ///< coefficients that are not 0
   bool reciprocal = false;
+  double reciprocity_asymmetry = 0, mirror_asymmetry = 0;  ///< of the measurement: log_mae against its symmetric average
+  std::string reciprocity, mirror;     ///< what became of each, one sentence
   std::vector<RecordedError> errors;   ///< of the finished file
   double seconds_fit = 0, seconds_residual = 0, seconds_verify = 0;
   std::string brief() const;

@@ -21,7 +21,7 @@ namespace brdf {
 enum class EvalLevel : std::uint8_t {
   fast = 0,      ///< lobes only
   balanced = 1,  ///< lobes and a residual grid that lives in the processor's inner caches
-  exact = 2,     ///< lobes and the full residual grid
+  exact = 2,     ///< lobes and the full residual grid; of a file in slices, the slices themselves
 };
 const char* to_string(EvalLevel level) noexcept;
 

@@ -28,6 +28,18 @@ struct Component {
   residual::ChannelTransform transform = residual::ChannelTransform::opponent;
 };
 
+/// What the flags of a component say of its residual.
+inline residual::Azimuth azimuth_of(const Component& c) noexcept {
+  if (!c.reciprocal) return residual::Azimuth::one_way;
+  return c.mirror_symmetric ? residual::Azimuth::symmetric : residual::Azimuth::reciprocal;
+}
+
+/// The other way round; a component without a residual has all symmetries.
+inline void set_symmetries(Component& c, const residual::ResidualCode& code) noexcept {
+  c.reciprocal = code.empty() || residual::is_reciprocal(code.azimuth);
+  c.mirror_symmetric = code.empty() || residual::is_mirror_symmetric(code.azimuth);
+}
+
 struct Content {
   Component component;
   LobeSet lobes;

@@ -42,9 +42,9 @@ Component read_component(base::ByteReader& in, const DecodeLimits& limits) {
   c.mirror_symmetric = (first & 0x20U) != 0;
   c.reciprocal = (first & 0x40U) != 0;
   if ((first & 0x80U) != 0 || (second & 0xE0U) != 0) throw Error(ErrorCode::malformed, "component: reserved bits are set");
-  if (axes >= axes_kind_count || c.incident_below || c.outgoing_below || !c.mirror_symmetric)
+  if (axes >= axes_kind_count || c.incident_below || c.outgoing_below || (!c.mirror_symmetric && !c.reciprocal))
     throw Error(ErrorCode::unsupported, "component: axes " + std::to_string(axes) +
-                                            " or its sides are not known to this version; only isotropic mirror-symmetric reflection is");
+                                            " or its sides are not known to this version; only isotropic reflection with one symmetry at least is");
   c.axes = static_cast<AxesKind>(axes);
   if (c.axes == AxesKind::slices && c.reciprocal)
     throw Error(ErrorCode::malformed, "component: a residual in slices of theta_i cannot be reciprocal");

@@ -69,7 +69,7 @@ std::vector<std::byte> pack(const Content& content) {
     std::uint32_t count = 0;
     for (const residual::Layer& layer : code.layers)
       for (const std::uint32_t e : layer.end) count = std::max(count, e);
-    residual::LayerCodec codec(code.basis, code.reciprocal, code.channels, count, residual::reach_of(code.slices));
+    residual::LayerCodec codec(code.basis, residual::even_only(code.azimuth), code.channels, count, residual::reach_of(code.slices));
     const residual::Layer* before = nullptr;
     for (std::size_t i = 0; i < code.layers.size(); ++i) {
       std::vector<std::byte> payload;

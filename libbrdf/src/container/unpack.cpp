@@ -81,7 +81,7 @@ class ChunkReader {
     read_errors(rest, 1);
     BitReader bits(rest, "residual chunk");
     code.basis = read_basis(bits, count_);
-    code.reciprocal = out_.content.component.reciprocal;
+    code.azimuth = azimuth_of(out_.content.component);
     code.channels = out_.content.component.channels.count;
     spend(count_);  // the field of magnitudes
     std::span<const std::byte> layers = bits.rest();
@@ -89,7 +89,7 @@ class ChunkReader {
       code.slices = read_slice_frame(layers);
       spend_slices(code.slices, static_cast<std::uint64_t>(code.channels));
     }
-    codec_.emplace(code.basis, code.reciprocal, code.channels, count_, residual::reach_of(code.slices));
+    codec_.emplace(code.basis, residual::even_only(code.azimuth), code.channels, count_, residual::reach_of(code.slices));
     layer(layers);
   }
 

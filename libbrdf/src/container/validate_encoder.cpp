@@ -31,13 +31,13 @@ void validate_lobes(const LobeSet& set, int channels) {
 void validate_residual(const residual::ResidualCode& code, const Component& component) {
   const auto channels = static_cast<std::size_t>(component.channels.count);
   const residual::BasisCodes& b = code.basis;
-  require(code.channels == component.channels.count && code.reciprocal == component.reciprocal,
-          "residual and component differ in channels or reciprocity");
+  require(code.channels == component.channels.count && code.azimuth == azimuth_of(component),
+          "residual and component differ in channels or symmetries");
   require(b.kappa_h < 32 && b.kappa_d < 16 && b.window_h < 16 && b.window_d < 16 && b.shape < residual::order_shape_count && b.table < residual::balanced_grid_count &&
               b.epsilon <= residual::largest_epsilon_code, "a basis code is out of range");
   const char* why = "";
   if (!code.slices.empty() && !is_valid(code.slices, why)) refuse(std::string("slice frame: ") + why);
-  require(code.slices.empty() || !code.reciprocal, "a residual in slices of theta_i cannot be reciprocal");
+  require(code.slices.empty() || code.azimuth == residual::Azimuth::one_way, "a residual in slices of theta_i cannot be reciprocal");
   const residual::Layer* before = nullptr;
   for (const residual::Layer& layer : code.layers) {
     require(layer.end.size() == channels && layer.q.size() == channels, "a layer does not have one entry per channel");

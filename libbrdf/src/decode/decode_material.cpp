@@ -26,7 +26,7 @@ eval::Residual residual_for(const Source& source, const LobeSet& lobes, EvalLeve
   if (level == EvalLevel::fast || source.coefficients.order.empty()) return {};
   const residual::GridSize& size =
       level == EvalLevel::exact ? residual::exact_grid : residual::balanced_grids[source.coefficients.basis.table];
-  const std::size_t bytes = residual::grid_bytes(size, source.coefficients.reciprocal, source.coefficients.channels);
+  const std::size_t bytes = residual::grid_bytes(size, source.coefficients.azimuth, source.coefficients.channels);
   if (bytes > source.limits.max_table_bytes)
     throw Error(ErrorCode::limit_exceeded, "the " + std::string(to_string(level)) + " table needs " + std::to_string(bytes) +
                                                " bytes, the limit is " + std::to_string(source.limits.max_table_bytes));

@@ -1,25 +1,23 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "encode/basis_choice.h"
 
+#include "encode/scattered_pairs.h"
+
 #include <algorithm>
 #include <cmath>
-#include <numbers>
 
 namespace brdf::encode {
 
 double residual_epsilon(const Measurement& m) {
-  // median brightness over a fixed set of directions (R2 sequence), so that any unit of the source works
+  // median brightness, so that any unit of the source works
   const MeasurementInterpolator reference(m);
   std::vector<double> f(static_cast<std::size_t>(m.channels.count)), seen;
-  for (int i = 0; i < 400; ++i) {
-    const auto turn = [i](double ratio) { return std::fmod(0.5 + ratio * i, 1.0); };
-    const double ci = 0.2 + 0.8 * turn(0.8191725134), co = 0.2 + 0.8 * turn(0.6710436067), phi = 2 * std::numbers::pi * turn(0.5497004779);
-    const double si = std::sqrt(1 - ci * ci), so = std::sqrt(1 - co * co);
-    if (!reference.eval({si * std::cos(phi), si * std::sin(phi), ci}, {so, 0, co}, f)) continue;
+  for_scattered_pairs(400, [&](const Vec3d& wi, const Vec3d& wo) {
+    if (!reference.eval(wi, wo, f)) return;
     double mean = 0;
     for (const double v : f) mean += v;
     if (mean > 0) seen.push_back(mean / static_cast<double>(f.size()));
-  }
+  });
   constexpr double usual = 1.0 / 1024;
   if (seen.empty()) return usual;
   std::nth_element(seen.begin(), seen.begin() + static_cast<std::ptrdiff_t>(seen.size() / 2), seen.end());

@@ -5,10 +5,12 @@
 #include "encode/distortion.h"
 #include "encode/layers.h"
 #include "encode/slice_model.h"
+#include "encode/transform_choice.h"
 
 #include <brdf/version.h>
 
 #include <algorithm>
+#include <cmath>
 
 namespace brdf::encode {
 namespace {
@@ -17,13 +19,11 @@ constexpr int finest_step = 128;  // 2^-12: below it the table's half floats rou
 
 }  // namespace
 
-container::Content frame_of(const Measurement& m, const LobeSet& lobes, bool store_provenance) {
+container::Content frame_of(const Measurement& m, const LobeSet& lobes, double epsilon, bool store_provenance) {
   container::Content c;
   c.component.channels = m.channels;
   c.component.reciprocal = true;  // lobes are symmetric to the last bit
-  c.component.transform = m.channels.count == 3 ? residual::ChannelTransform::opponent
-                          : m.channels.count == 1 ? residual::ChannelTransform::identity
-                                                  : residual::ChannelTransform::cosine;
+  c.component.transform = decorrelating_transform(m, lobes, epsilon);
   c.lobes = lobes;
   if (store_provenance) {
     c.provenance = m.provenance;
@@ -39,49 +39,43 @@ Encoded lobes_only(const container::Content& frame) {
   return e;
 }
 
-Candidate Candidate::half_difference(const Measurement& m, const container::Content& frame, const residual::BasisCodes& codes,
-                                     bool reciprocal, const EffortStep& effort, const metrics::QuerySet& queries) {
+Candidate Candidate::half_difference(const SourceData& source, const residual::BasisCodes& codes, residual::Azimuth azimuth, int coefficients) {
   residual::ResidualCode code;
   code.basis = codes;
-  code.reciprocal = reciprocal;
-  code.channels = m.channels.count;
-  Candidate c(frame, code, residual::coefficient_order(residual::order_shapes[codes.shape], reciprocal, static_cast<std::uint32_t>(effort.coefficients)),
-              effort.passes);
+  code.azimuth = azimuth;
+  code.channels = source.measurement.channels.count;
+  Candidate c(source.frame, code, residual::coefficient_order(residual::order_shapes[codes.shape], residual::even_only(azimuth), static_cast<std::uint32_t>(coefficients)),
+              source.effort.passes);
   const residual::Basis basis = residual::basis_of(codes);
-  const residual::ChannelTransform transform = frame.component.transform;
-  const MetricMix mix;
-  const Bins bins = sample_bins(m, frame.lobes, basis, effort.bins_h, effort.bins_d, effort.bins_p, effort.substeps);
-  c.model_ = cell_model(bins, cell_weights(bins, basis.epsilon, mix), basis, c.order_, transform);
-  if (effort.image_quality > 0) add_environment(c.model_, m, frame.lobes, queries, basis, c.order_, transform, mix.environment);
+  const residual::ChannelTransform transform = source.frame.component.transform;
+  const WeightedBins& cells = source.bins(codes);
+  c.model_ = cell_model(cells.bins, cells.weights, basis, azimuth, c.order_, transform);
+  if (!source.image().slope.empty())
+    add_environment(c.model_, source.image(), source.frame.lobes, source.queries(), basis, azimuth, c.order_, transform, MetricMix{}.environment);
   c.start_ = solve_coefficients(c.model_);
   return c;
 }
 
-std::optional<Candidate> Candidate::in_slices(const Measurement& m, const container::Content& frame, const residual::BasisCodes& codes,
-                                              const SliceSettings& settings, const EffortStep& effort, const metrics::QuerySet& queries) {
-  std::optional<residual::SliceFrame> slices = slice_frame(m, settings.ndf_step);
-  if (!slices) return {};
+std::optional<Candidate> Candidate::in_slices(const SourceData& source, const residual::BasisCodes& codes, const SliceSettings& settings) {
+  const SliceSource* slices = source.slices(settings.ndf_step, codes);
+  if (slices == nullptr) return {};
   residual::ResidualCode code;
   code.basis = codes;
   code.basis.shape = static_cast<std::uint8_t>(settings.shape);
-  code.slices = *slices;
-  code.channels = m.channels.count;
-  Candidate c(frame, code, residual::coefficient_order(residual::order_shapes[settings.shape], false,
-                                                       static_cast<std::uint32_t>(settings.coefficients), residual::reach_of(*slices)),
-              effort.passes);
-  const residual::Basis basis = residual::basis_of(codes);
-  const residual::ChannelTransform transform = frame.component.transform;
-  const MetricMix mix;
-  const Bins bins = sample_bins(m, frame.lobes, basis, effort.bins_h, effort.bins_d, effort.bins_p, effort.substeps);
-  const SliceSamples samples = sample_slices(m, *slices);
-  const std::vector<double> weights = slice_weights(bins, cell_weights(bins, basis.epsilon, mix), basis, *slices, samples);
-  c.start_ = slice_coefficients(samples, c.order_, transform);
+  code.slices = slices->frame;
+  code.channels = source.measurement.channels.count;
+  Candidate c(source.frame, code, residual::coefficient_order(residual::order_shapes[settings.shape], false,
+                                                              static_cast<std::uint32_t>(settings.coefficients), residual::reach_of(slices->frame)),
+              source.effort.passes);
+  const residual::ChannelTransform transform = source.frame.component.transform;
+  c.start_ = slice_coefficients(slices->samples, c.order_, transform);
   if (c.order_.size() > static_cast<std::size_t>(largest_matrix)) {
-    c.model_ = slice_diagonal(samples, weights, c.order_, c.start_);
+    c.model_ = slice_diagonal(slices->samples, slices->weights, c.order_, c.start_);
     return c;
   }
-  c.model_ = slice_model(samples, weights, c.order_, transform);
-  if (effort.image_quality > 0) add_environment(c.model_, m, samples, *slices, queries, c.order_, transform, mix.environment);
+  c.model_ = slice_model(slices->samples, slices->weights, c.order_, transform);
+  if (!source.image().slope.empty())
+    add_environment(c.model_, source.image(), slices->samples, slices->frame, source.queries(), c.order_, transform, MetricMix{}.environment);
   return c;
 }
 
@@ -89,52 +83,60 @@ Encoded Candidate::encode(int step_code, double lambda_scale, int layers) const 
   Encoded e;
   e.content = frame_;
   e.step_code = step_code;
-  const Quantised q = quantise(model_, start_, order_, code_.reciprocal, {residual::step_of(step_code), lambda_scale, passes_});
+  e.lambda_scale = lambda_scale;
+  const Quantised q = quantise(model_, start_, order_, residual::even_only(code_.azimuth), {residual::step_of(step_code), lambda_scale, passes_});
   e.error = q.error;
   e.content.residual = make_layers(q, code_, step_code, layers);
-  e.content.component.reciprocal = code_.reciprocal || e.content.residual.empty();
+  container::set_symmetries(e.content.component, e.content.residual);
   e.bytes = container::pack(e.content);
   return e;
 }
 
-Encoded Candidate::encode_to_size(std::uint64_t bytes) const {
-  const int layers = layer_count(bytes);
-  Encoded best;
+std::vector<Encoded> Candidate::encode_to_size(std::uint64_t bytes) const {
+  // in slices the lobes have no part in the value, and a first layer that is too coarse is worse than they are
+  const int layers = std::max(layer_count(bytes) - (code_.slices.empty() ? 0 : 1), 1);
+  std::vector<Encoded> fitting;
+  const auto fits = [&](int code, double scale) {
+    Encoded e = encode(code, scale, layers);
+    const bool small = e.bytes.size() <= bytes;
+    if (small) fitting.push_back(std::move(e));
+    return small;
+  };
   int coarse = 0, fine = finest_step;  // the size grows with the code
   while (coarse < fine) {
     const int middle = (coarse + fine + 1) / 2;
-    Encoded e = encode(middle, 1.0, layers);
-    if (e.bytes.size() <= bytes) {
+    if (fits(middle, 1.0))
       coarse = middle;
-      best = std::move(e);
-    } else {
+    else
       fine = middle - 1;
-    }
-  }
-  if (best.bytes.empty()) {
-    best = encode(0, 1.0, layers);
-    if (best.bytes.size() > bytes) best.bytes.clear();
-    return best;
   }
   // spend what is left with a finer step and a steeper price, or a lower price at this step
-  const auto consider = [&](Encoded e) {
-    const bool fits = e.bytes.size() <= bytes;
-    if (fits && e.error < best.error) best = std::move(e);
-    return fits;
-  };
-  if (coarse < finest_step) {
-    double low = 1.0, high = 4.0;
-    for (int i = 0; i < 4; ++i) {
-      const double scale = (low + high) / 2;
-      (consider(encode(coarse + 1, scale, layers)) ? high : low) = scale;
+  constexpr int attempts = 5;
+  const std::uint64_t enough = bytes - std::min<std::uint64_t>(bytes, std::max<std::uint64_t>(bytes / 200, 1));
+  const auto spend = [&](int code, double low, double high) {  // prices as powers of 2; the lower one is too large a file
+    for (int i = 0; i < attempts; ++i) {
+      const double middle = (low + high) / 2;
+      if (!fits(code, std::exp2(middle))) {
+        low = middle;
+        continue;
+      }
+      if (fitting.back().bytes.size() >= enough) return;
+      high = middle;
     }
+  };
+  if (coarse < finest_step) spend(coarse + 1, 0.0, fitting.empty() ? 6.0 : 2.0);
+  spend(coarse, fitting.empty() ? 0.0 : -2.5, fitting.empty() ? 6.0 : 0.0);
+  // steps whose sizes leap over the last bytes: their neighbours may not
+  const auto filled = [&] { return std::any_of(fitting.begin(), fitting.end(), [&](const Encoded& e) { return e.bytes.size() >= least_size(bytes); }); };
+  if (coarse < finest_step) {
+    for (const int step : {2, 3}) {
+      if (fitting.empty() || filled()) break;
+      spend(std::min(coarse + step, finest_step), 0.0, 2.0 + step);
+    }
+    if (coarse > 0 && !fitting.empty() && !filled()) spend(coarse - 1, -4.0, 0.0);
   }
-  double low = 0.2, high = 1.0;
-  for (int i = 0; i < 4; ++i) {
-    const double scale = (low + high) / 2;
-    (consider(encode(coarse, scale, layers)) ? high : low) = scale;
-  }
-  return best;
+  std::stable_sort(fitting.begin(), fitting.end(), [](const Encoded& x, const Encoded& y) { return x.error < y.error; });
+  return fitting;
 }
 
 }  // namespace brdf::encode

@@ -3,10 +3,11 @@
 #pragma once
 
 #include "container/content.h"
-#include "encode/effort.h"
 #include "encode/error_model.h"
 #include "encode/quantiser.h"
+#include "encode/source_data.h"
 
+#include <algorithm>
 #include <cstdint>
 #include <optional>
 #include <vector>
@@ -19,13 +20,16 @@ struct Encoded {
   std::vector<std::byte> bytes;
   double error = 0;   ///< of the error model
   int step_code = 0;
+  double lambda_scale = 1;
 };
+
+/// What a file of at most `bytes` has at least, unless no further byte lowers the error.
+inline std::uint64_t least_size(std::uint64_t bytes) noexcept { return bytes - std::min(bytes, std::max<std::uint64_t>(bytes / 50, 8)); }
 
 class Candidate {
  public:
-  /// In half/difference coordinates. `frame`: all that a file says but its residual.
-  static Candidate half_difference(const Measurement& m, const container::Content& frame, const residual::BasisCodes& basis,
-                                   bool reciprocal, const EffortStep& effort, const metrics::QuerySet& queries);
+  /// In half/difference coordinates.
+  static Candidate half_difference(const SourceData& source, const residual::BasisCodes& basis, residual::Azimuth azimuth, int coefficients);
 
   /// How a residual in slices is set up.
   struct SliceSettings {
@@ -36,16 +40,14 @@ class Candidate {
   static constexpr int largest_matrix = 4096;
 
   /// In the measurement's own slices; none for measurements that have none. `basis` is that of the balanced table.
-  static std::optional<Candidate> in_slices(const Measurement& m, const container::Content& frame,
-                                            const residual::BasisCodes& basis, const SliceSettings& settings,
-                                            const EffortStep& effort, const metrics::QuerySet& queries);
+  static std::optional<Candidate> in_slices(const SourceData& source, const residual::BasisCodes& basis, const SliceSettings& settings);
 
   /// Quantised with one step.
   Encoded encode(int step_code, double lambda_scale, int layers) const;
 
-  /// The file with the smallest error of at most `bytes` (its layers included); empty bytes when even the coarsest
-  /// step is larger.
-  Encoded encode_to_size(std::uint64_t bytes) const;
+  /// Files of at most `bytes` (layers included) that a search came by, by increasing error of the model. Nothing when even the
+  /// coarsest step is larger.
+  std::vector<Encoded> encode_to_size(std::uint64_t bytes) const;
 
  private:
   Candidate(container::Content frame, residual::ResidualCode code, std::vector<residual::Frequency> order, int passes)
@@ -59,8 +61,8 @@ class Candidate {
   std::vector<std::vector<double>> start_;
 };
 
-/// All that a file says but its residual; `store_provenance` adds where it comes from.
-container::Content frame_of(const Measurement& m, const LobeSet& lobes, bool store_provenance);
+/// All that a file says but its residual; `epsilon` is that of the basis, `store_provenance` adds where the file comes from.
+container::Content frame_of(const Measurement& m, const LobeSet& lobes, double epsilon, bool store_provenance);
 
 /// The file without any residual.
 Encoded lobes_only(const container::Content& frame);

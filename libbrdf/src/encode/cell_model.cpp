@@ -2,6 +2,7 @@
 #include "encode/error_model.h"
 #include "residual/order_extent.h"
 
+#include <algorithm>
 #include <cmath>
 #include <cstdlib>
 #include <numbers>
@@ -11,6 +12,7 @@ namespace {
 
 using residual::Extent;
 using residual::Frequency;
+using residual::Harmonic;
 
 /// table[j * n + i] = cos(pi j u_i)
 std::vector<double> cosine_table(const std::vector<double>& u, int count) {
@@ -23,12 +25,17 @@ std::vector<double> cosine_table(const std::vector<double>& u, int count) {
   return t;
 }
 
+/// cos(q phi), then sin(q phi), as [2 q + sine][p]; phi in [0, pi]
 std::vector<double> phi_table(const std::vector<double>& cos_phi, int count) {
-  std::vector<double> t(cos_phi.size() * static_cast<std::size_t>(count));
-  std::vector<double> row(static_cast<std::size_t>(count));
+  std::vector<double> t(cos_phi.size() * 2 * static_cast<std::size_t>(count));
   for (std::size_t i = 0; i < cos_phi.size(); ++i) {
+    const double phi = std::acos(cos_phi[i]);
+    std::vector<double> row(static_cast<std::size_t>(count));
     residual::cosines(cos_phi[i], count, row.data());
-    for (std::size_t j = 0; j < row.size(); ++j) t[j * cos_phi.size() + i] = row[j];
+    for (std::size_t q = 0; q < row.size(); ++q) {
+      t[2 * q * cos_phi.size() + i] = row[q];
+      t[(2 * q + 1) * cos_phi.size() + i] = std::sin(static_cast<double>(q) * phi);
+    }
   }
   return t;
 }
@@ -39,7 +46,7 @@ std::vector<double> powers(const std::vector<double>& sine, double width, int po
   return w;
 }
 
-/// sum over cells of field * window^power * cos(q phi) cos(pi k u_h) cos(pi l u_d) for all k, l of the tables.
+/// sum over cells of field * window^power * (cos or sin)(q phi) cos(pi k u_h) cos(pi l u_d) for all k, l of the tables.
 class CosineTransform {
  public:
   CosineTransform(const Bins& b, const residual::Basis& basis, int k, int l, int q)
@@ -47,10 +54,10 @@ class CosineTransform {
         h_(cosine_table(b.u_h, k)), d_(cosine_table(b.u_d, l)), phi_(phi_table(b.cos_phi, q)) {}
 
   /// Sums over phi first: out[h][d].
-  std::vector<double> along_phi(std::span<const double> field, int q) const {
+  std::vector<double> along_phi(std::span<const double> field, Harmonic f) const {
     const auto np = static_cast<std::size_t>(b_.n_p);
     std::vector<double> out(field.size() / np);
-    const double* c = phi_.data() + static_cast<std::size_t>(q) * np;
+    const double* c = phi_.data() + (2 * static_cast<std::size_t>(f.order) + (f.sine ? 1 : 0)) * np;
     for (std::size_t i = 0; i < out.size(); ++i) {
       double s = 0;
       for (std::size_t p = 0; p < np; ++p) s += field[i * np + p] * c[p];
@@ -85,30 +92,51 @@ class CosineTransform {
 
 }  // namespace
 
-ErrorModel cell_model(const Bins& b, std::span<const double> weights, const residual::Basis& basis,
+namespace {
+
+/// (cos or sin)(a phi) (cos or sin)(c phi) = (first + sign second) / 2, the sign of the orders included.
+struct Product {
+  Harmonic first, second;
+  double sign_first, sign_second;
+};
+
+Product product(Harmonic a, Harmonic c) noexcept {
+  const int sum = a.order + c.order, difference = a.order - c.order;
+  const Harmonic of_difference{std::abs(difference), a.sine != c.sine};
+  if (a.sine == c.sine) return {of_difference, {sum, false}, 1.0, a.sine ? -1.0 : 1.0};
+  const double sign = (a.sine ? difference : -difference) < 0 ? -1.0 : 1.0;  // the sine is odd
+  return {of_difference, {sum, true}, sign, 1.0};
+}
+
+}  // namespace
+
+ErrorModel cell_model(const Bins& b, std::span<const double> weights, const residual::Basis& basis, residual::Azimuth azimuth,
                       std::span<const Frequency> order, residual::ChannelTransform transform) {
   const Extent reach = residual::extent(order);
-  const int k2 = 2 * reach.k, l2 = 2 * reach.l, q2 = 2 * reach.m;
+  const int k2 = 2 * reach.k, l2 = 2 * reach.l, q2 = 2 * reach.m + 1;
   const CosineTransform cosine(b, basis, k2, l2, q2);
   ErrorModel model;
   model.size = order.size();
+  const auto of = [azimuth](int m) { return residual::harmonic(m, azimuth); };
 
-  // transforms[power][q]: only q <= power of the same parity occur, power = m + m'
-  std::vector<std::vector<double>> by_phi;
-  for (int q = 0; q < q2; ++q) by_phi.push_back(cosine.along_phi(weights, q));
-  const auto slot = [&](int power, int q) { return static_cast<std::size_t>(power * q2 + q); };
-  std::vector<std::vector<double>> transforms(static_cast<std::size_t>(q2 * q2));
+  // transforms of the weights by power of the window and harmonic, as far as products of basis functions need them
+  const auto slot = [&](int power, Harmonic f) { return static_cast<std::size_t>((power * q2 + f.order) * 2 + (f.sine ? 1 : 0)); };
+  std::vector<std::vector<double>> transforms(static_cast<std::size_t>(q2 * q2 * 2)), by_phi(static_cast<std::size_t>(q2 * 2));
   std::vector<char> has_m(static_cast<std::size_t>(reach.m), 0);
   for (const Frequency& f : order) has_m[f.m] = 1;
-  const auto need = [&](int power, int q) {
-    auto& t = transforms[slot(power, q)];
-    if (t.empty()) t = cosine.over_hd(by_phi[static_cast<std::size_t>(q)], power);
+  const auto need = [&](int power, Harmonic f) {
+    auto& t = transforms[slot(power, f)];
+    if (!t.empty()) return;
+    auto& along = by_phi[slot(0, f)];
+    if (along.empty()) along = cosine.along_phi(weights, f);
+    t = cosine.over_hd(along, power);
   };
   for (int m = 0; m < reach.m; ++m)
     for (int n = 0; n <= m; ++n)
       if (has_m[static_cast<std::size_t>(m)] != 0 && has_m[static_cast<std::size_t>(n)] != 0) {
-        need(m + n, m + n);
-        need(m + n, m - n);
+        const Product p = product(of(m), of(n));
+        need(of(m).order + of(n).order, p.first);
+        need(of(m).order + of(n).order, p.second);
       }
 
   model.gram.resize(model.size * model.size);
@@ -117,14 +145,19 @@ ErrorModel cell_model(const Bins& b, std::span<const double> weights, const resi
     const Frequency a = order[i];
     for (std::size_t j = 0; j <= i; ++j) {
       const Frequency c = order[j];
-      const std::vector<double>& sum = transforms[slot(a.m + c.m, a.m + c.m)];
-      const std::vector<double>& difference = transforms[slot(a.m + c.m, std::abs(a.m - c.m))];
+      const Product p = product(of(std::max(a.m, c.m)), of(std::min(a.m, c.m)));
+      const int power = of(a.m).order + of(c.m).order;
+      const std::vector<double>& first = transforms[slot(power, p.first)];
+      const std::vector<double>& second = transforms[slot(power, p.second)];
       const std::size_t k_plus = static_cast<std::size_t>(a.k + c.k) * l_stride;
       const std::size_t k_minus = static_cast<std::size_t>(std::abs(a.k - c.k)) * l_stride;
       const auto l_plus = static_cast<std::size_t>(a.l + c.l), l_minus = static_cast<std::size_t>(std::abs(a.l - c.l));
-      const double g = sum[k_plus + l_plus] + sum[k_plus + l_minus] + sum[k_minus + l_plus] + sum[k_minus + l_minus] +
-                       difference[k_plus + l_plus] + difference[k_plus + l_minus] + difference[k_minus + l_plus] +
-                       difference[k_minus + l_minus];
+      double g = 0;
+      const auto add = [&](const std::vector<double>& t, double sign) {
+        for (const std::size_t at : {k_plus + l_plus, k_plus + l_minus, k_minus + l_plus, k_minus + l_minus}) g += sign * t[at];
+      };
+      add(second, p.sign_second);
+      add(first, p.sign_first);
       model.gram[i * model.size + j] = model.gram[j * model.size + i] = g / 8;
     }
   }
@@ -142,7 +175,7 @@ ErrorModel cell_model(const Bins& b, std::span<const double> weights, const resi
     std::vector<double> right(model.size, 0.0);
     for (int m = 0; m < reach.m; ++m) {
       if (has_m[static_cast<std::size_t>(m)] == 0) continue;
-      const std::vector<double> projected = cosine.over_hd(cosine.along_phi(field, m), m);
+      const std::vector<double> projected = cosine.over_hd(cosine.along_phi(field, of(m)), of(m).order);
       for (std::size_t i = 0; i < order.size(); ++i)
         if (order[i].m == m) right[i] = projected[order[i].k * l_stride + order[i].l];
     }

@@ -2,10 +2,12 @@
 #include "container/chunk_types.h"
 #include "container/header.h"
 #include "container/lobe_codes.h"
+#include "encode/asymmetry.h"
 #include "encode/basis_choice.h"
 #include "encode/candidate.h"
 #include "encode/effort.h"
 #include "encode/error_search.h"
+#include "encode/file_errors.h"
 #include "encode/size_search.h"
 #include "encode/verification.h"
 
@@ -24,6 +26,10 @@ using encode::EffortStep;
 
 /// Size of a file when nobody says otherwise: past it most materials gain little that an eye could see.
 constexpr std::uint64_t usual_size = 2048;
+constexpr std::uint64_t few_bytes = 160;       // below, lobes and residual compete for the same bytes
+constexpr int more_lobes = 1;                  // than the effort has, where they may be all that a file holds
+constexpr double asymmetry_quality = 0.05;
+constexpr double choosing_quality = 0.3;       // of the verification that tells candidates apart
 
 class Stages {
  public:
@@ -40,12 +46,6 @@ double seconds_since(std::chrono::steady_clock::time_point start) {
   return std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
 }
 
-bool is_reciprocal(const Measurement& m, SymmetryMode mode) {
-  if (mode == SymmetryMode::enforce) return true;
-  const auto* table = std::get_if<HalfDifferenceTable>(&m.table);
-  return table != nullptr && !table->full_circle;  // half a circle of phi_d is all that such a table has
-}
-
 FitOptions fit_options(const EffortStep& effort, int threads) {
   FitOptions o;
   o.max_lobes = effort.max_lobes;
@@ -56,28 +56,13 @@ FitOptions fit_options(const EffortStep& effort, int threads) {
   return o;
 }
 
-/// Measures every refinement at its levels and writes the figures into the content.
-void record_errors(Encoded& e, const encode::Verification& verification) {
-  DecodeOptions decode;
-  decode.allow_prefix = true;
-  decode.sampling = false;
-  const std::vector<std::uint64_t> ends = container::boundaries(e.bytes, decode.limits);
-  e.content.errors.clear();
-  for (std::size_t i = 0; i < ends.size(); ++i) {
-    const std::span<const std::byte> prefix = std::span(e.bytes).first(ends[i]);
-    const auto record = [&](EvalLevel level) {
-      decode.level = level;
-      const ErrorReport r = verification.score(Material::decode(prefix, decode));
-      e.content.errors.push_back({static_cast<int>(i), level, r.log_mae.all, r.psnr_env});
-    };
-    if (i == 0) {
-      record(EvalLevel::fast);
-    } else {
-      record(EvalLevel::balanced);
-      record(EvalLevel::exact);
-    }
-  }
-  e.bytes = container::pack(e.content);
+/// What the search for this file lowered; larger is better.
+encode::Worth worth_of(const EncodeOptions& options) {
+  if (!options.target_error) return encode::merit;
+  return [metric = options.target_error->metric](const ErrorReport& r) {
+    const bool decibels = metric == Metric::psnr_env || metric == Metric::psnr_lights;
+    return decibels ? r.get(metric) : -r.get(metric);
+  };
 }
 
 void count_bytes(std::span<const std::byte> bytes, EncodeSummary& summary) {
@@ -127,53 +112,96 @@ EncodeResult compress(const Measurement& m, const EncodeOptions& options, const 
   EncodeResult result;
   EncodeSummary& summary = result.summary;
 
+  const std::uint64_t size = options.target_size.value_or(usual_size);
   stages.at("fit", 0.0);
   auto start = Clock::now();
-  FitResult fit = fit_lobes(m, fit_options(effort, options.threads), [&](std::string_view stage, double done) {
+  FitOptions lobe_options = fit_options(effort, options.threads);
+  if (size < few_bytes) lobe_options.max_lobes += more_lobes;
+  FitResult fit = fit_lobes(m, lobe_options, [&](std::string_view stage, double done) {
     return !progress || progress(stage, 0.35 * done);
   });
-  const LobeSet lobes = container::quantise_lobes(fit.lobes);
-  summary.fit = std::move(fit.summary);
   summary.seconds_fit = seconds_since(start);
 
   stages.at("residual", 0.35);
   start = Clock::now();
-  const bool reciprocal = is_reciprocal(m, options.reciprocity);
-  const container::Content frame = encode::frame_of(m, lobes, options.store_provenance);
-  Encoded best = encode::lobes_only(frame);
-  const std::uint64_t lobe_file = best.bytes.size();
-  const std::uint64_t size = options.target_size.value_or(usual_size);
-  metrics::QuerySet queries;
-  if (effort.image_quality > 0) queries = metrics::build_queries(effort.image_quality);
+  const auto progress_of_search = [&](double share) { stages.at("residual", 0.35 + 0.5 * share); };
   const double epsilon = encode::residual_epsilon(m);
-  std::optional<encode::Verification> verification;
+  const encode::Asymmetry asymmetry = encode::measure_asymmetry(m, std::min(asymmetry_quality, effort.verify_quality));
+  const encode::Azimuths azimuths = encode::azimuths(m, options.reciprocity, options.mirror, asymmetry, effort);
+  // one verification tells candidates apart, a finer one has the last word; where they are the same they are one
+  const double final_quality = options.target_error ? 1.0 : effort.verify_quality, coarse_quality = std::min(choosing_quality, effort.verify_quality);
+  const encode::Verification verification(m, final_quality, options.threads);
+  std::optional<encode::Verification> coarse;
+  if (coarse_quality < final_quality) coarse.emplace(m, coarse_quality, options.threads);
+  const encode::Verification& choosing = coarse ? *coarse : verification;
+  const auto frame_for = [&](const FitResult& f) {
+    return encode::frame_of(m, container::quantise_lobes(f.lobes), epsilon, options.store_provenance);
+  };
+  const auto search_for = [&](const container::Content& frame, const EffortStep& step, const encode::Verification& telling_apart, const auto& run) {
+    const std::vector<residual::BasisCodes> bases = encode::basis_variants(frame.lobes, epsilon, step.variants);
+    const encode::SourceData source(m, frame, step);
+    return run(source, encode::Search{bases, azimuths, options.level, telling_apart, options.threads, step.effort == effort.effort});
+  };
 
+  Encoded best;
+  double reciprocity_gain = 0, mirror_gain = 0;  // dB of keeping the asymmetry
   if (options.target_error) {
-    verification.emplace(m, effort.verify_quality, options.threads);
-    best = encode::encode_to_error(m, frame, encode::basis_variants(lobes, epsilon, 1).front(), reciprocal, effort, queries,
-                                   *options.target_error, options.level, *verification);
-  } else if (lobe_file > size) {
-    // fewer lobes may still fit
-    FitOptions one = fit_options(effort, options.threads);
-    one.max_lobes = 1;
-    FitResult smaller = fit_lobes(m, one);
-    best = encode::lobes_only(encode::frame_of(m, container::quantise_lobes(smaller.lobes), options.store_provenance));
-    if (best.bytes.size() > size)
-      throw Error(ErrorCode::target_not_met, "compress: " + std::to_string(size) + " bytes cannot hold this material, the smallest file has " +
-                                                 std::to_string(best.bytes.size()) + " bytes");
-    summary.fit = std::move(smaller.summary);
+    // every lower step has its say, so that more effort is never a larger file
+    std::optional<Error> unmet;
+    for (const EffortStep& step : encode::effort_steps()) {
+      if (step.effort > effort.effort) break;
+      const bool last = step.effort == effort.effort;
+      FitResult lower = last ? std::move(fit) : fit_lobes(m, fit_options(step, options.threads));
+      std::optional<encode::Verification> own;
+      if (!last) own.emplace(m, std::min(choosing_quality, step.verify_quality), options.threads);
+      try {
+        Encoded e = search_for(frame_for(lower), step, own ? *own : choosing, [&](const encode::SourceData& source, const encode::Search& search) {
+          return encode::encode_to_error(source, search, *options.target_error, verification, progress_of_search);
+        });
+        if (best.bytes.empty() || e.bytes.size() < best.bytes.size()) {
+          best = std::move(e);
+          summary.fit = std::move(lower.summary);
+        }
+      } catch (const Error& e) {
+        if (e.code() != ErrorCode::target_not_met) throw;
+        unmet = e;
+      }
+    }
+    if (best.bytes.empty()) throw *unmet;
   } else {
-    const encode::SearchSpace space{m,      frame,   encode::basis_variants(lobes, epsilon, effort.variants), reciprocal,
-                                    effort, queries, options.threads};
-    Encoded found = encode::encode_to_size(space, size, [&](double share) { stages.at("residual", 0.35 + 0.5 * share); });
-    if (!found.bytes.empty()) best = std::move(found);
+    double merit = 0;
+    std::uint64_t smallest = UINT64_MAX;
+    // in a small file one lobe less may leave room for something better
+    for (;;) {
+      const container::Content frame = frame_for(fit);
+      const std::uint64_t alone = encode::lobes_only(frame).bytes.size();
+      smallest = std::min(smallest, alone);
+      if (alone <= size) {
+        encode::Found found = search_for(frame, effort, choosing, [&](const encode::SourceData& source, const encode::Search& search) {
+          return encode::encode_to_size(source, search, size, progress_of_search);
+        });
+        if (best.bytes.empty() || found.merit > merit) {
+          merit = found.merit;
+          reciprocity_gain = found.gain(residual::Azimuth::one_way, residual::Azimuth::symmetric);
+          mirror_gain = found.gain(residual::Azimuth::reciprocal, residual::Azimuth::symmetric);
+          best = std::move(found.file);
+          summary.fit = std::move(fit.summary);
+        }
+      }
+      const int fewer = static_cast<int>(frame.lobes.lobes.size()) - 1;
+      if (size >= few_bytes || fewer < 1) break;
+      lobe_options.max_lobes = fewer;
+      fit = fit_lobes(m, lobe_options);
+    }
+    if (best.bytes.empty())
+      throw Error(ErrorCode::target_not_met, "compress: " + std::to_string(size) + " bytes cannot hold this material, the smallest file has " +
+                                                 std::to_string(smallest) + " bytes");
   }
   summary.seconds_residual = seconds_since(start);
 
   stages.at("verify", 0.85);
   start = Clock::now();
-  if (!verification) verification.emplace(m, effort.verify_quality, options.threads);
-  record_errors(best, *verification);
+  encode::record_errors(best, verification, options.level, worth_of(options));
   summary.seconds_verify = seconds_since(start);
 
   count_bytes(best.bytes, summary);
@@ -183,6 +211,11 @@ EncodeResult compress(const Measurement& m, const EncodeOptions& options, const 
     for (const auto& q : layer.q)
       for (const std::int32_t v : q) summary.coefficients += v != 0 ? 1 : 0;
   summary.reciprocal = best.content.component.reciprocal;
+  summary.reciprocity_asymmetry = asymmetry.reciprocity;
+  summary.mirror_asymmetry = asymmetry.mirror;
+  summary.reciprocity = encode::reciprocity_sentence(options.reciprocity, asymmetry.reciprocity == 0, summary.reciprocal,
+                                                     summary.refinements == 0, asymmetry.reciprocity, reciprocity_gain);
+  summary.mirror = encode::mirror_sentence(options.mirror, !best.content.component.mirror_symmetric, summary.refinements == 0, asymmetry.mirror, mirror_gain);
   summary.errors = best.content.errors;
   result.bytes = std::move(best.bytes);
   stages.at("done", 1.0);

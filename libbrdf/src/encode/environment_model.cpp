@@ -1,4 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
+#include "encode/dense_kernels.h"
 #include "encode/error_model.h"
 #include "residual/order_extent.h"
 
@@ -14,28 +15,34 @@ constexpr double gamma = 2.2;
 /// Products of basis functions at one pair of directions, added to a row.
 class BasisRow {
  public:
-  BasisRow(const residual::Basis& basis, std::span<const residual::Frequency> order) : basis_(basis), order_(order) {
+  BasisRow(const residual::Basis& basis, residual::Azimuth azimuth, std::span<const residual::Frequency> order)
+      : basis_(basis), azimuth_(azimuth), order_(order) {
     const residual::Extent e = residual::extent(order);
     k_.resize(static_cast<std::size_t>(e.k));
     l_.resize(static_cast<std::size_t>(e.l));
     m_.resize(static_cast<std::size_t>(e.m));
     lm_.resize(l_.size() * m_.size());
   }
-  void add(const geometry::HalfDifference<double>& g, double weight, double* row) {
+  void add(const Vec3d& wi, const Vec3d& wo, double weight, double* row) {
+    const geometry::HalfDifference<double> g = geometry::half_difference(wi, wo);
     const double u_h = residual::warp(residual::chord(g.sin_theta_h, g.cos_theta_h), basis_.kappa_h);
     const double u_d = residual::warp(residual::chord(g.sin_theta_d, g.cos_theta_d), basis_.kappa_d);
     residual::cosines(std::cos(3.14159265358979324 * u_h), static_cast<int>(k_.size()), k_.data());
     residual::cosines(std::cos(3.14159265358979324 * u_d), static_cast<int>(l_.size()), l_.data());
-    residual::cosines(g.cos_phi_d, static_cast<int>(m_.size()), m_.data());
+    const double cross = (wi.x + wo.x) * (wi.y - wo.y) - (wi.y + wo.y) * (wi.x - wo.x);  // has the sign of sin phi_d
+    const bool turned = azimuth_ == residual::Azimuth::reciprocal && cross < 0;
+    residual::harmonics(turned ? -g.cos_phi_d : g.cos_phi_d, azimuth_, static_cast<int>(m_.size()), m_.data());
     const double window = residual::pole_window(g.sin_theta_h, basis_.window_h) * residual::pole_window(g.sin_theta_d, basis_.window_d);
     double power = weight;
     for (std::size_t m = 0; m < m_.size(); ++m, power *= window)
-      for (std::size_t l = 0; l < l_.size(); ++l) lm_[m * l_.size() + l] = m_[m] * power * l_[l];
+      for (std::size_t l = 0; l < l_.size(); ++l)
+        lm_[m * l_.size() + l] = m_[m] * power * l_[l] * (residual::harmonic(static_cast<int>(m), azimuth_).sine ? window : 1.0);
     for (std::size_t j = 0; j < order_.size(); ++j) row[j] += k_[order_[j].k] * lm_[order_[j].m * l_.size() + order_[j].l];
   }
 
  private:
   const residual::Basis& basis_;
+  residual::Azimuth azimuth_;
   std::span<const residual::Frequency> order_;
   std::vector<double> k_, l_, m_, lm_;
 };
@@ -72,40 +79,27 @@ ImageSlopes image_slopes(const Measurement& m, const metrics::QuerySet& queries)
 void add_rows(ErrorModel& model, std::span<const double> rows, std::span<const double> targets,
               const std::vector<double>& channel_matrix, double scale) {
   const std::size_t count = rows.size() / model.size, n = model.b.size();
-  constexpr std::size_t block = 8;  // rows at a time, so that the matrix is read once per block
-  for (std::size_t p0 = 0; p0 < count; p0 += block) {
-    const std::size_t p1 = std::min(count, p0 + block);
-    for (std::size_t i = 0; i < model.size; ++i) {
-      double* out = model.gram.data() + i * model.size;
-      for (std::size_t p = p0; p < p1; ++p) {
-        const double* a = rows.data() + p * model.size;
-        const double s = scale * a[i];
-        for (std::size_t j = 0; j < model.size; ++j) out[j] += s * a[j];
-      }
-    }
-  }
+  add_outer_products(model.gram.data(), model.size, rows.data(), count, scale);
   for (std::size_t t = 0; t < n; ++t)
     for (std::size_t p = 0; p < count; ++p) {
       double y = 0;
       for (std::size_t c = 0; c < n; ++c) y += channel_matrix[t * n + c] * targets[p * n + c];
       model.constant += scale * y * y;
       const double* a = rows.data() + p * model.size;
-      for (std::size_t j = 0; j < model.size; ++j) model.b[t][j] += scale * y * a[j];
+      add_scaled(model.b[t].data(), a, scale * y, model.size);
     }
 }
 
-void add_environment(ErrorModel& model, const Measurement& m, const LobeSet& lobes, const metrics::QuerySet& queries,
-                     const residual::Basis& basis, std::span<const residual::Frequency> order,
+void add_environment(ErrorModel& model, const ImageSlopes& shown, const LobeSet& lobes, const metrics::QuerySet& queries,
+                     const residual::Basis& basis, residual::Azimuth azimuth, std::span<const residual::Frequency> order,
                      residual::ChannelTransform transform, double weight) {
   const metrics::ImageRows& image = queries.image[0];
-  const int channels = m.channels.count;
+  const int channels = lobes.channels;
   const auto n = static_cast<std::size_t>(channels);
-  const ImageSlopes shown = image_slopes(m, queries);
-  if (shown.slope.empty()) return;
 
   // rows of the operator: pixel values as linear functions of the coefficients (one for all channels) and their target
   std::vector<double> rows(image.pixels * model.size, 0.0), target(image.pixels * n, 0.0), l(n);
-  BasisRow basis_row(basis, order);
+  BasisRow basis_row(basis, azimuth, order);
   for (std::size_t r = 0; r < image.rows; ++r) {
     const std::size_t row = image.first + r, pixel = queries.pixel[row];
     const Vec3d wi(queries.wi[row]), wo(queries.wo[row]);
@@ -117,7 +111,7 @@ void add_environment(ErrorModel& model, const Measurement& m, const LobeSet& lob
     eval_lobes(lobes, wi, wo, l);
     for (std::size_t c = 0; c < n; ++c)
       target[pixel * n + c] += g * std::log((shown.f[r * n + c] + basis.epsilon) / (l[c] + basis.epsilon));
-    basis_row.add(geometry::half_difference(wi, wo), g, rows.data() + pixel * model.size);
+    basis_row.add(wi, wo, g, rows.data() + pixel * model.size);
   }
   add_rows(model, rows, target, residual::channel_matrix(transform, channels), weight / image.pixels);
 }

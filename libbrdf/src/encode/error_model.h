@@ -27,12 +27,7 @@ struct ErrorModel {
 /// The diagonal (per cell) part. Exact for the cells: products of cosines are sums of cosines, so the whole matrix follows
 /// from transforms of the weights and no basis function is ever tabulated over the cells.
 ErrorModel cell_model(const Bins& bins, std::span<const double> weights, const residual::Basis& basis,
-                      std::span<const residual::Frequency> order, residual::ChannelTransform transform);
-
-/// Adds the image under an environment: errors add up over the lights before they are seen.
-void add_environment(ErrorModel& model, const Measurement& m, const LobeSet& lobes, const metrics::QuerySet& queries,
-                     const residual::Basis& basis, std::span<const residual::Frequency> order,
-                     residual::ChannelTransform transform, double weight);
+                      residual::Azimuth azimuth, std::span<const residual::Frequency> order, residual::ChannelTransform transform);
 
 /// What an image under the environment shows: f at its rows, and the slope of the display curve per unit of light at its
 /// pixels, [row or pixel][channel]. No slopes when the material is black.
@@ -40,6 +35,11 @@ struct ImageSlopes {
   std::vector<double> f, slope;
 };
 ImageSlopes image_slopes(const Measurement& m, const metrics::QuerySet& queries);
+
+/// Adds the image under an environment: errors add up over the lights before they are seen.
+void add_environment(ErrorModel& model, const ImageSlopes& shown, const LobeSet& lobes, const metrics::QuerySet& queries,
+                     const residual::Basis& basis, residual::Azimuth azimuth, std::span<const residual::Frequency> order,
+                     residual::ChannelTransform transform, double weight);
 
 /// Adds scale * (row . a - target)^2 for rows of `model.size` numbers; targets [row][channel] before the channel transform.
 void add_rows(ErrorModel& model, std::span<const double> rows, std::span<const double> targets,

@@ -1,18 +1,18 @@
 // SPDX-License-Identifier: Apache-2.0
-// Smallest file whose measured error meets a target.
+// The smallest file whose measured error meets a target.
 #pragma once
 
-#include "encode/candidate.h"
-#include "encode/verification.h"
+#include "encode/size_search.h"
 
 #include <brdf/metrics.h>
 
+#include <functional>
+
 namespace brdf::encode {
 
-/// Searches the quantiser's step; every step tried is decoded and measured at `level`. Throws Error(target_not_met) with
-/// the best value that was reached.
-Encoded encode_to_error(const Measurement& m, const container::Content& frame, const residual::BasisCodes& basis,
-                        bool reciprocal, const EffortStep& effort, const metrics::QuerySet& queries, const ErrorTarget& target,
-                        EvalLevel level, const Verification& verification);
+/// Tries the recipes, coarse verification first; the file returned meets the target at search.level under `full`.
+/// Throws Error(target_not_met) with the best value that was reached. Not dependent on the number of threads.
+Encoded encode_to_error(const SourceData& source, const Search& search, const ErrorTarget& target, const Verification& full,
+                        const std::function<void(double share)>& done);
 
 }  // namespace brdf::encode

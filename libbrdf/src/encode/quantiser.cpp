@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "encode/quantiser.h"
 
+#include "encode/dense_kernels.h"
 #include "residual/layer_codec.h"
 #include "residual/order_extent.h"
 
@@ -86,8 +87,7 @@ class Curvature {
       slope[j] += amount * model_.diagonal[j];
       return;
     }
-    const double* row = model_.gram.data() + j * model_.size;
-    for (std::size_t i = 0; i < model_.size; ++i) slope[i] += amount * row[i];
+    add_scaled(slope.data(), model_.gram.data() + j * model_.size, amount, model_.size);
   }
 
  private:

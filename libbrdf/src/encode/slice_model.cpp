@@ -111,7 +111,7 @@ ErrorModel slice_model(const SliceSamples& s, std::span<const double> weights, s
   }
   residual::Basis no_windows;
   no_windows.window_h = no_windows.window_d = 0;
-  return cell_model(bins, w, no_windows, order, transform);
+  return cell_model(bins, w, no_windows, residual::Azimuth::one_way, order, transform);
 }
 
 ErrorModel slice_diagonal(const SliceSamples& s, std::span<const double> weights, std::span<const residual::Frequency> order,
@@ -133,11 +133,9 @@ ErrorModel slice_diagonal(const SliceSamples& s, std::span<const double> weights
   return model;
 }
 
-void add_environment(ErrorModel& model, const Measurement& m, const SliceSamples& s, const residual::SliceFrame& frame,
+void add_environment(ErrorModel& model, const ImageSlopes& image, const SliceSamples& s, const residual::SliceFrame& frame,
                      const metrics::QuerySet& queries, std::span<const residual::Frequency> order,
                      residual::ChannelTransform transform, double weight) {
-  const ImageSlopes image = image_slopes(m, queries);
-  if (image.slope.empty()) return;
   const slices::SliceMap map(frame);
   const metrics::ImageRows& rows = queries.image[0];
   const std::size_t n = s.channels;

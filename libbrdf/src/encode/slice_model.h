@@ -26,7 +26,7 @@ ErrorModel slice_diagonal(const SliceSamples& samples, std::span<const double> w
                           const std::vector<std::vector<double>>& coefficients);
 
 /// Adds the image under an environment, linear in the nodes around what was measured.
-void add_environment(ErrorModel& model, const Measurement& m, const SliceSamples& samples, const residual::SliceFrame& frame,
+void add_environment(ErrorModel& model, const ImageSlopes& image, const SliceSamples& samples, const residual::SliceFrame& frame,
                      const metrics::QuerySet& queries, std::span<const residual::Frequency> order,
                      residual::ChannelTransform transform, double weight);
 

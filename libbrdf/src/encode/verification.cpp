@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "encode/verification.h"
 
+#include <algorithm>
+#include <cmath>
 #include <vector>
 
 namespace brdf::encode {
@@ -27,6 +29,18 @@ ErrorReport Verification::score(const Material& material) const {
   return comparison_.score([&material, n](std::span<const Vec3f> wi, std::span<const Vec3f> wo, std::span<float> out) {
     for (std::size_t i = 0; i < wi.size(); ++i) material.eval(wi[i], wo[i], out.subspan(i * n, n));
   });
+}
+
+ErrorReport Verification::score(std::span<const std::byte> bytes, EvalLevel level) const {
+  DecodeOptions decode;
+  decode.sampling = false;
+  decode.level = level;
+  decode.allow_prefix = true;
+  return score(Material::decode(bytes, decode));
+}
+
+double merit(const ErrorReport& r) noexcept {
+  return (r.psnr_env + r.psnr_lights - 20 * std::log10(std::max(r.log_mae.all, 1e-9))) / 3;
 }
 
 }  // namespace brdf::encode

@@ -11,12 +11,18 @@
 
 namespace brdf::encode {
 
+/// One figure over the three that are reported, in decibels; larger is better. What a search for the best file of a size
+/// compares.
+double merit(const ErrorReport& r) noexcept;
+
 /// Scores decoded files against one measurement. Single-pair evaluation throughout: the recorded figures must not depend
 /// on the instruction set.
 class Verification {
  public:
   Verification(const Measurement& m, double quality, int threads);
   ErrorReport score(const Material& material) const;
+  /// Of a file, or of one that is cut at a refinement boundary.
+  ErrorReport score(std::span<const std::byte> bytes, EvalLevel level) const;
 
  private:
   MeasurementInterpolator reference_;

@@ -50,9 +50,12 @@ HWY_INLINE void grid_rows(const GridParams& g, const PairVectors& p, GridRows& r
   const V r = root(hn::MulAdd(along, along, across2));
   const V q = root(quotient(across2, hn::Mul(r, hn::Add(r, along))));
   V u_p = q;
-  if (!g.reciprocal) {
+  if (g.azimuth != residual::Azimuth::symmetric) {
+    // a product, not two signs: with both directions at one height it is 0 either way round
+    V side = hn::Sub(p.cos_o, p.cos_i);
+    if (g.azimuth == residual::Azimuth::reciprocal) side = hn::Mul(side, p.cross);
     const V half = hn::Mul(q, set(0.5f));
-    u_p = hn::IfThenElse(hn::Ge(p.cos_o, p.cos_i), half, hn::Sub(set(1.0f), half));
+    u_p = hn::IfThenElse(hn::Ge(side, hn::Zero(d)), half, hn::Sub(set(1.0f), half));
   }
   const AxisPosition at_h = axis_position(warped(t_h, g.axis_h), g.last_h);
   const AxisPosition at_d = axis_position(warped(t_d, g.axis_d), g.last_d);

@@ -70,17 +70,18 @@ GridParams::GridParams(const residual::ResidualGrid& grid, int channels) {
   axis_h = warped_axis(grid.n_h, grid.kappa_h);
   axis_d = warped_axis(grid.n_d, grid.kappa_d);
   epsilon = grid.epsilon;
-  reciprocal = grid.reciprocal;
+  azimuth = grid.azimuth;
 
   lanes.kappa = {axis_h.kappa, axis_d.kappa, 1, 1};
   lanes.last = {last_h, last_d, last_p, 0};
-  // reciprocal: u_p = q for either sign; else q / 2 where wo is the higher one, and 1 - q / 2 where it is not.
+  // symmetric: u_p = q for either side; else q / 2 on the upper one and 1 - q / 2 on the lower one.
   // With kappa 1, t (a + a t) / (t + 1) = a t
-  const float rising = reciprocal ? scale_p : 0.5f * scale_p, falling = reciprocal ? scale_p : -0.5f * scale_p;
+  const bool folded = azimuth == residual::Azimuth::symmetric;
+  const float rising = folded ? scale_p : 0.5f * scale_p, falling = folded ? scale_p : -0.5f * scale_p;
   lanes.side[1] = {{axis_h.linear, axis_d.linear, rising, 0}, {axis_h.square, axis_d.square, rising, 0}, {}};
   lanes.side[0] = {{axis_h.linear, axis_d.linear, falling, 0},
                    {axis_h.square, axis_d.square, falling, 0},
-                   {0, 0, reciprocal ? 0.0f : scale_p, 0}};
+                   {0, 0, folded ? 0.0f : scale_p, 0}};
   lanes.halves = {3 * grid.n_d * grid.n_p, 3 * grid.n_p, 3, 0};
 }
 

@@ -24,7 +24,7 @@ struct GridParams {
   };
   Axis axis_h, axis_d;
   float epsilon = 0;
-  bool reciprocal = false;
+  residual::Azimuth azimuth = residual::Azimuth::one_way;
 
   /// The three axes in lanes, for evaluation of one pair: position x = t (linear + square t) / (t + kappa) + offset.
   struct AxisLanes {
@@ -32,7 +32,7 @@ struct GridParams {
       std::array<float, 4> linear, square, offset;
     };
     std::array<float, 4> kappa, last;
-    std::array<Side, 2> side;            ///< by the sign of cos phi_d: second where wo is the higher one
+    std::array<Side, 2> side;            ///< see on_upper_side; the second one is the upper
     std::array<std::int32_t, 4> halves;  ///< from one node of the axis to the next; RGB only
   };
   alignas(64) AxisLanes lanes{};

@@ -23,8 +23,8 @@ struct PairTerms {
   float low, high;         ///< the smaller and the larger cosine, at least min_cosine
   float s_xy2, d_xy2;      ///< squared parts in the surface
   float s_z, s_z2, d_z;    ///< d_z = |wi.z - wo.z|
-  float cross;             ///< s x d along the normal, up to its sign
-  bool wo_higher;          ///< wo.z >= wi.z: the sign of cos phi_d
+  float cross;             ///< s x d along the normal
+  float rise;              ///< wo.z - wi.z: its sign is that of cos phi_d, and the sign of `cross` that of sin phi_d
   float s2, s;             ///< |s|^2 and |s|
   float norm, inv_norm;    ///< |(s, d)|, 2 for unit vectors, and its inverse: cos theta_d = s inv_norm
   bool valid;              ///< above the horizon, and numbers
@@ -36,7 +36,7 @@ inline PairTerms pair_terms(const Vec3f& wi, const Vec3f& wo) noexcept {
   const float cos_i = std::max(wi.z, min_cosine), cos_o = std::max(wo.z, min_cosine);
   p.low = std::min(cos_i, cos_o);
   p.high = std::max(cos_i, cos_o);
-  p.wo_higher = wo.z >= wi.z;
+  p.rise = wo.z - wi.z;
   p.s_xy2 = sx * sx + sy * sy;
   p.d_xy2 = dx * dx + dy * dy;
   p.s_z = cos_i + cos_o;

@@ -30,7 +30,12 @@ GridCoordinates grid_coordinates(const residual::ResidualGrid& grid, const Vec3d
   GridCoordinates u;
   u.u_h = residual::warp(residual::chord(hd.sin_theta_h, hd.cos_theta_h), static_cast<double>(grid.kappa_h));
   u.u_d = residual::warp(residual::chord(hd.sin_theta_d, hd.cos_theta_d), static_cast<double>(grid.kappa_d));
-  u.u_p = grid.reciprocal ? 2 * residual::phi_coordinate(std::fabs(hd.cos_phi_d)) : residual::phi_coordinate(hd.cos_phi_d);
+  const double cross = (wi.x + wo.x) * (wi.y - wo.y) - (wi.y + wo.y) * (wi.x - wo.x);  // has the sign of sin phi_d
+  switch (grid.azimuth) {
+    case residual::Azimuth::one_way: u.u_p = residual::phi_coordinate(hd.cos_phi_d); break;
+    case residual::Azimuth::symmetric: u.u_p = 2 * residual::phi_coordinate(std::fabs(hd.cos_phi_d)); break;
+    case residual::Azimuth::reciprocal: u.u_p = residual::phi_coordinate(cross < 0 ? -hd.cos_phi_d : hd.cos_phi_d); break;
+  }
   return u;
 }
 

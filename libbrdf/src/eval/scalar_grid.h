@@ -19,6 +19,12 @@ struct GridPosition {
   float h, d, p;
 };
 
+/// Whether cos phi_d, or that of phi_d modulo pi, is not negative. A product, not two signs: with both directions at one
+/// height it is 0 either way round.
+inline bool on_upper_side(const GridParams& g, const PairTerms& t) noexcept {
+  return (g.azimuth == residual::Azimuth::reciprocal ? t.rise * t.cross : t.rise) >= 0.0f;
+}
+
 /// Coordinates as residual/grid_coordinates.h defines them, in forms that keep their digits in float:
 ///   chord(theta) = sqrt(sin^2 / (1 + cos)),   1 - |cos phi_d| = sin^2 phi_d / (1 + |cos phi_d|)
 /// with sin phi_d from the cross product, so that neither small angles nor pairs in one plane with the normal cancel.
@@ -33,7 +39,7 @@ inline GridPosition grid_position(const GridParams& g, const PairTerms& t) noexc
   const float r = std::sqrt(along * along + across2);
   const float q = std::sqrt(across2 / (r * (r + along)));
   float u_p = q;
-  if (!g.reciprocal) u_p = t.wo_higher ? 0.5f * q : 1.0f - 0.5f * q;
+  if (g.azimuth != residual::Azimuth::symmetric) u_p = on_upper_side(g, t) ? 0.5f * q : 1.0f - 0.5f * q;
 
   const float x_h = warped(t_h, g.axis_h), x_d = warped(t_d, g.axis_d), x_p = u_p * g.scale_p;
   const auto lower = [](float x, float last) { return static_cast<float>(static_cast<int>(std::min(x, last))); };

@@ -2,6 +2,7 @@
 // f of one RGB pair: lobes in the lanes of a vector, the axes of the grid in those of another. A single call waits for one
 // result after the other, and lanes bring as many of them at once as they can.
 #include "eval/pair_terms.h"
+#include "eval/scalar_grid.h"
 #include "eval/tables.h"
 
 #include <numbers>
@@ -80,7 +81,7 @@ HWY_INLINE V4 ratio_of_pair(const GridParams& g, const PairTerms& t) {
   const V4 below = four(t.s * (t.s + t.s_z), t.norm * (t.norm + t.s), r * (r + along), 1.0f);
   const V4 chord = hn::Sqrt(hn::Div(above, below));
   const GridParams::AxisLanes& a = g.lanes;
-  const GridParams::AxisLanes::Side& side = a.side[t.wo_higher ? 1 : 0];
+  const GridParams::AxisLanes::Side& side = a.side[on_upper_side(g, t) ? 1 : 0];
   const V4 divisor = hn::Add(chord, four(a.kappa)), bent = hn::MulAdd(chord, four(side.square), four(side.linear));
   const V4 x = hn::Div(hn::MulAdd(chord, bent, hn::Mul(divisor, four(side.offset))), divisor);
   const hn::FixedTag<std::int32_t, 4> ints;

@@ -7,22 +7,15 @@
 
 #include "residual/node_sums.h"
 
-#include <hwy/aligned_allocator.h>
 #include <hwy/highway.h>
 
 #include <algorithm>
 
+#include "residual/add_scaled-inl.h"
 #include "residual/half_vectors-inl.h"
 
 HWY_BEFORE_NAMESPACE();
 namespace brdf::residual::HWY_NAMESPACE {
-/// out[i] += a in[i] for a multiple of 16 floats
-HWY_INLINE void add_scaled(float a, const float* HWY_RESTRICT in, float* HWY_RESTRICT out, std::size_t n) {
-  const Floats d;
-  const V scale = hn::Set(d, a);
-  for (std::size_t i = 0; i < n; i += hn::Lanes(d))
-    hn::StoreU(hn::Add(hn::LoadU(d, out + i), hn::Mul(scale, hn::LoadU(d, in + i))), d, out + i);
-}
 
 /// exp for |x| < 80, relative error below 3e-7 (Cephes expf, Moshier 1989).
 HWY_INLINE V exponential(V x) {

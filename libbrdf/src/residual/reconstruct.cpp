@@ -12,7 +12,7 @@
 namespace brdf::residual {
 namespace {
 
-int phi_nodes(const GridSize& size, bool reciprocal) noexcept { return reciprocal ? (size.n_p + 1) / 2 : size.n_p; }
+int phi_nodes(const GridSize& size, Azimuth azimuth) noexcept { return azimuth == Azimuth::symmetric ? (size.n_p + 1) / 2 : size.n_p; }
 
 /// Tables of one axis: cosine[j][node] and window^m as [m][node], rows padded for vectors.
 struct AxisTables {
@@ -20,7 +20,7 @@ struct AxisTables {
   std::vector<float> cosine, window;
 };
 
-AxisTables axis_tables(int n, int frequencies, int harmonics, double kappa, double width) {
+AxisTables axis_tables(int n, int frequencies, int harmonics, Azimuth azimuth, double kappa, double width) {
   AxisTables t{padded(static_cast<std::size_t>(n)), {}, {}};
   t.cosine.assign(t.stride * static_cast<std::size_t>(frequencies), 0.0F);
   t.window.assign(t.stride * static_cast<std::size_t>(harmonics), 0.0F);
@@ -34,7 +34,8 @@ AxisTables axis_tables(int n, int frequencies, int harmonics, double kappa, doub
     const double w = pole_window(std::sqrt(std::max(0.0, 1 - cosine * cosine)), width);
     double power = 1;
     for (int m = 0; m < harmonics; ++m, power *= w)
-      t.window[static_cast<std::size_t>(m) * t.stride + static_cast<std::size_t>(i)] = static_cast<float>(power);
+      t.window[static_cast<std::size_t>(m) * t.stride + static_cast<std::size_t>(i)] =
+          static_cast<float>(harmonic(m, azimuth).order == m ? power : power * w);
   }
   return t;
 }
@@ -45,14 +46,14 @@ Coefficients dequantise(const ResidualCode& code, ChannelTransform transform, st
   Coefficients c;
   c.basis = code.basis;
   c.slices = code.slices;
-  c.reciprocal = code.reciprocal;
+  c.azimuth = code.azimuth;
   c.channels = code.channels;
   c.transform = transform;
   layers = std::min(layers, code.layers.size());
   std::uint32_t count = 0;
   for (std::size_t i = 0; i < layers; ++i)
     for (const std::uint32_t e : code.layers[i].end) count = std::max(count, e);
-  c.order = coefficient_order(order_shapes[code.basis.shape], code.reciprocal, count, reach_of(code.slices));
+  c.order = coefficient_order(order_shapes[code.basis.shape], even_only(code.azimuth), count, reach_of(code.slices));
   c.values.assign(static_cast<std::size_t>(code.channels), std::vector<float>(c.order.size(), 0.0F));
   for (std::size_t i = 0; i < layers; ++i) {
     const Layer& layer = code.layers[i];
@@ -66,15 +67,15 @@ Coefficients dequantise(const ResidualCode& code, ChannelTransform transform, st
   return c;
 }
 
-std::size_t grid_bytes(const GridSize& size, bool reciprocal, int channels) noexcept {
+std::size_t grid_bytes(const GridSize& size, Azimuth azimuth, int channels) noexcept {
   const auto nodes = static_cast<std::size_t>(size.n_h) * static_cast<std::size_t>(size.n_d) *
-                     static_cast<std::size_t>(phi_nodes(size, reciprocal));
+                     static_cast<std::size_t>(phi_nodes(size, azimuth));
   return (nodes * static_cast<std::size_t>(channels) + 8) * sizeof(std::uint16_t);
 }
 
 ResidualGrid reconstruct(const Coefficients& c, const GridSize& size) {
   const Basis basis = basis_of(c.basis);
-  const int np = phi_nodes(size, c.reciprocal);
+  const int np = phi_nodes(size, c.azimuth);
   const auto nh = static_cast<std::size_t>(size.n_h), nd = static_cast<std::size_t>(size.n_d), n_phi = static_cast<std::size_t>(np);
   const Extent reach = extent(c.order);
   const auto channels = static_cast<std::size_t>(c.channels);
@@ -84,21 +85,21 @@ ResidualGrid reconstruct(const Coefficients& c, const GridSize& size) {
   grid.n_d = size.n_d;
   grid.n_p = np;
   grid.channels = c.channels;
-  grid.reciprocal = c.reciprocal;
+  grid.azimuth = c.azimuth;
   grid.kappa_h = static_cast<float>(basis.kappa_h);
   grid.kappa_d = static_cast<float>(basis.kappa_d);
   grid.epsilon = static_cast<float>(basis.epsilon);
   grid.ratio.assign(nh * nd * n_phi * channels + 8, std::uint16_t{0});
 
-  const AxisTables h = axis_tables(size.n_h, std::max(reach.k, 1), std::max(reach.m, 1), basis.kappa_h, basis.window_h);
-  const AxisTables d = axis_tables(size.n_d, std::max(reach.l, 1), std::max(reach.m, 1), basis.kappa_d, basis.window_d);
+  const AxisTables h = axis_tables(size.n_h, std::max(reach.k, 1), std::max(reach.m, 1), c.azimuth, basis.kappa_h, basis.window_h);
+  const AxisTables d = axis_tables(size.n_d, std::max(reach.l, 1), std::max(reach.m, 1), c.azimuth, basis.kappa_d, basis.window_d);
   const auto harmonics = static_cast<std::size_t>(std::max(reach.m, 1)), nl = static_cast<std::size_t>(std::max(reach.l, 1));
   const std::size_t phi_stride = padded(n_phi);
   std::vector<float> phi(harmonics * phi_stride);  // cos(m phi) at the nodes
   for (std::size_t p = 0; p < n_phi; ++p) {
-    const double v = static_cast<double>(p) / (np - 1) * (c.reciprocal ? 0.5 : 1.0);
+    const double v = static_cast<double>(p) / (np - 1) * (c.azimuth == Azimuth::symmetric ? 0.5 : 1.0);
     std::vector<float> row(harmonics);
-    cosines(cos_phi_of(v), static_cast<int>(harmonics), row.data());
+    residual::harmonics(cos_phi_of(v), c.azimuth, static_cast<int>(harmonics), row.data());
     for (std::size_t m = 0; m < harmonics; ++m) phi[m * phi_stride + p] = row[m];
   }
 

@@ -14,7 +14,7 @@ namespace brdf::residual {
 struct Coefficients {
   BasisCodes basis;
   SliceFrame slices;  ///< empty: half/difference coordinates
-  bool reciprocal = false;
+  Azimuth azimuth = Azimuth::one_way;
   int channels = 0;
   ChannelTransform transform = ChannelTransform::identity;
   std::vector<Frequency> order;
@@ -26,7 +26,7 @@ Coefficients dequantise(const ResidualCode& code, ChannelTransform transform, st
 
 /// Nodes of a grid.
 struct GridSize {
-  int n_h, n_d, n_p;  ///< n_p is for phi_d over [0, pi]; reciprocal grids need half of it
+  int n_h, n_d, n_p;  ///< n_p is for phi_d over [0, pi]; symmetric grids need half of it
 };
 /// Shapes of the balanced table, nearly equal in nodes; the encoder chooses. Part of the format: entries are only added.
 inline constexpr GridSize balanced_grids[] = {{56, 28, 25}, {48, 40, 21}, {72, 32, 17}, {32, 44, 29}};
@@ -34,7 +34,7 @@ inline constexpr int balanced_grid_count = 4;
 inline constexpr GridSize exact_grid{128, 64, 49};
 
 /// Bytes of the table for a size.
-std::size_t grid_bytes(const GridSize& size, bool reciprocal, int channels) noexcept;
+std::size_t grid_bytes(const GridSize& size, Azimuth azimuth, int channels) noexcept;
 
 /// Evaluates the basis on the nodes; `c` is in half/difference coordinates.
 ResidualGrid reconstruct(const Coefficients& c, const GridSize& size);

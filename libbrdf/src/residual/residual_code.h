@@ -2,6 +2,7 @@
 // What the lobes miss, as quantised coefficients: the plain type between fit and container.
 #pragma once
 
+#include "residual/azimuth.h"
 #include "residual/slice_frame.h"
 
 #include <cstdint>
@@ -46,7 +47,7 @@ struct Layer {
 struct ResidualCode {
   BasisCodes basis;
   SliceFrame slices;        ///< empty: coefficients are in half/difference coordinates
-  bool reciprocal = false;  ///< even m only
+  Azimuth azimuth = Azimuth::one_way;
   int channels = 3;
   std::vector<Layer> layers;
   bool empty() const noexcept { return layers.empty(); }

@@ -14,19 +14,11 @@
 #include <cmath>
 #include <numbers>
 
+#include "residual/add_scaled-inl.h"
+
 HWY_BEFORE_NAMESPACE();
 namespace brdf::slices::HWY_NAMESPACE {
-namespace hn = hwy::HWY_NAMESPACE;
-
-/// out[i] += a in[i]; no fused operation.
-HWY_INLINE void add_scaled(float a, const float* HWY_RESTRICT in, float* HWY_RESTRICT out, std::size_t n) {
-  const hn::ScalableTag<float> d;
-  const auto scale = hn::Set(d, a);
-  std::size_t i = 0;
-  for (; i + hn::Lanes(d) <= n; i += hn::Lanes(d))
-    hn::StoreU(hn::Add(hn::LoadU(d, out + i), hn::Mul(scale, hn::LoadU(d, in + i))), d, out + i);
-  for (; i < n; ++i) out[i] += a * in[i];
-}
+using residual::HWY_NAMESPACE::add_scaled;
 
 void run_cosine_sums(const float* HWY_RESTRICT in, const float* HWY_RESTRICT cosine, std::size_t outer, std::size_t n,
                      std::size_t inner, float* HWY_RESTRICT out) {
