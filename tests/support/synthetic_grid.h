@@ -5,6 +5,7 @@
 #include "eval/material_impl.h"
 #include "residual/half_float.h"
 #include "residual/residual_grid.h"
+#include "sample/build_density.h"
 
 #include <brdf/lobes.h>
 #include <brdf/material.h>
@@ -12,6 +13,7 @@
 #include <algorithm>
 #include <cmath>
 #include <cstdint>
+#include <memory>
 #include <random>
 #include <utility>
 
@@ -76,12 +78,18 @@ inline LobeSet usual_lobes(int channels = 3) {
   return {channels, {lambert_lobe(channels, 0.3), ggx_lobe(channels, 0.08, 0.06), ggx_lobe(channels, 0.35, 0.1, 0.6)}};
 }
 
+/// A handle that is prepared for sampling.
+inline Material with_sampling(std::shared_ptr<const Material::Impl> impl) {
+  auto tables = sample::build_density(impl->lobes, impl->tables);
+  return Material(std::move(impl), std::move(tables));
+}
+
 inline Material material_of(const LobeSet& lobes, residual::ResidualGrid grid = {}) {
   MaterialInfo info;
   info.channels.count = lobes.channels;
   info.reciprocal = grid.empty() || residual::is_reciprocal(grid.azimuth);
   const EvalLevel level = grid.empty() ? EvalLevel::fast : EvalLevel::balanced;
-  return Material(eval::make_impl(std::move(info), lobes, std::move(grid), level));
+  return with_sampling(eval::make_impl(std::move(info), lobes, std::move(grid), level));
 }
 
 }  // namespace brdf::test

@@ -9,6 +9,7 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
+#include <utility>
 
 namespace {
 
@@ -76,15 +77,16 @@ TEST(SampleExtremes, AMaterialOfNothingSamplesTheCosineWithWeightZero) {
   EXPECT_GT(found, 900);
 }
 
-/// At normal incidence the visible normals of GGX have P(tan^2 theta_h < t alpha^2) = t / (1 + t). Kolmogorov-Smirnov.
+/// At normal incidence f cos_i of a narrow GGX lobe is as the visible normals: P(tan^2 theta_h < t alpha^2) = t / (1 + t).
+/// Weights over the samples must say the same, whatever the table makes of the lobe. Kolmogorov-Smirnov.
 TEST(SampleExtremes, NarrowLobesFollowTheirDistributionDownToTheSmallestAlpha) {
   const std::size_t n = 20000;
   const DirectionBatch u = test::random_numbers(n, 9);
   for (double alpha : {1e-5, 1e-4, 1e-3, 1e-2, 0.1}) {
     for (bool retro : {false, true}) {
       const Material m = narrow(alpha, retro);
-      std::vector<double> share;
-      double peak = 0;
+      std::vector<std::pair<double, double>> share;  // and weight
+      double peak = 0, total = 0;
       for (std::size_t i = 0; i < n; ++i) {
         std::array<float, 3> weight{};
         const Vec3f from_lobe{0.5f * u.x[i], u.y[i], u.z[i]};  // the GGX component comes first
@@ -93,15 +95,19 @@ TEST(SampleExtremes, NarrowLobesFollowTheirDistributionDownToTheSmallestAlpha) {
         if (!(s.pdf > 0)) continue;
         peak = std::max(peak, static_cast<double>(s.pdf));
         const double tan_h = std::hypot(s.wi.x, s.wi.y) / (1 + static_cast<double>(s.wi.z)), t = tan_h * tan_h / (alpha * alpha);
-        share.push_back(t / (1 + t));
-        ASSERT_TRUE(alpha > 1e-3 || share.back() > 0.99 || std::fabs(weight[0] - 0.9f) < 0.01f) << weight[0];
+        share.emplace_back(t / (1 + t), weight[0]);
+        total += static_cast<double>(weight[0]);
+        // 32 cells from 0 to 1 are few for a lobe of 1e-10
+        ASSERT_TRUE(alpha > 1e-3 || share.back().first > 0.99 || (weight[0] > 0.25f && weight[0] < 1.5f)) << weight[0];
       }
       ASSERT_GT(share.size(), n * 95 / 100);
-      EXPECT_GT(peak, 0.9 / (4 * 3.1416 * alpha * alpha));
+      EXPECT_GT(peak, (alpha < 5e-4 ? 0.8 : 0.9) / (4 * 3.1416 * alpha * alpha));
       std::sort(share.begin(), share.end());
-      double distance = 0;
-      for (std::size_t i = 0; i < share.size(); ++i)
-        distance = std::max(distance, std::fabs(share[i] - (static_cast<double>(i) + 0.5) / static_cast<double>(n)));
+      double distance = 0, upto = 0;
+      for (const auto& [place, weight] : share) {
+        upto += weight / total;
+        distance = std::max(distance, std::fabs(place - upto));
+      }
       EXPECT_LT(distance, 1.95 / std::sqrt(static_cast<double>(n)) + (alpha >= 0.1 ? 0.02 : 0.002)) << alpha << retro;
     }
   }

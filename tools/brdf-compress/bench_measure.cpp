@@ -31,7 +31,7 @@ bool same_values(const Material& a, const Material& b) {
 
 int count_bugs(const EncodeResult& encoded, const BenchSetting& setting, const BenchRow& row, EvalLevel level,
                const std::string& path) {
-  const auto decode = [&] { return decode_file(encoded.bytes, level, false, path); };
+  const auto decode = [&] { return decode_file(encoded.bytes, level, false, path, true); };
   const Material m = decode();
   int bugs = 0;
   bugs += setting.target_size && encoded.bytes.size() > *setting.target_size ? 1 : 0;
@@ -72,7 +72,7 @@ BenchRow BenchMaterial::begin_row(std::uint64_t bytes) const {
 BenchRow BenchMaterial::measure_level(const EncodeResult& encoded, EvalLevel level) const {
   BenchRow row = begin_row(encoded.bytes.size());
   row.level = level;
-  const Material m = decode_file(encoded.bytes, level, false, source_.path());
+  const Material m = decode_file(encoded.bytes, level, false, source_.path(), true);
   row.decode_us = 1e6 * undisturbed_seconds([&] { decode_file(encoded.bytes, level, false, source_.path()); });
   row.resident_bytes = m.resident_bytes();
   measure_speed(m, row);

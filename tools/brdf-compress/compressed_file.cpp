@@ -38,8 +38,10 @@ std::vector<std::byte> cut_to_prefix(std::vector<std::byte> bytes, std::optional
   return bytes;
 }
 
-Material decode_file(std::span<const std::byte> bytes, EvalLevel level, bool allow_prefix, const std::string& path) {
+Material decode_file(std::span<const std::byte> bytes, EvalLevel level, bool allow_prefix, const std::string& path,
+                     bool sampling) {
   DecodeOptions options;
+  options.sampling = sampling;
   options.level = level;
   options.allow_prefix = allow_prefix;
   return naming(path, [&] { return Material::decode(bytes, options); });

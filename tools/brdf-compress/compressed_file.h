@@ -22,6 +22,7 @@ std::vector<std::byte> cut_to_prefix(std::vector<std::byte> bytes, std::optional
                                      const std::string& path);
 
 /// Decodes; sentences of errors start with the path.
-Material decode_file(std::span<const std::byte> bytes, EvalLevel level, bool allow_prefix, const std::string& path);
+Material decode_file(std::span<const std::byte> bytes, EvalLevel level, bool allow_prefix, const std::string& path,
+                     bool sampling = false);
 
 }  // namespace brdf::cli

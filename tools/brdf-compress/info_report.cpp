@@ -135,7 +135,7 @@ Json compressed_info(const MaterialSource& source) {
   row["refinements"] = refinements(source);
   row["lobes"] = lobe_list(material.lobes());
   for (const EvalLevel level : {EvalLevel::fast, EvalLevel::balanced, EvalLevel::exact}) {
-    row["resident_bytes"][to_string(level)] = material.prepare(level).resident_bytes();
+    row["resident_bytes"][to_string(level)] = material.prepare(level, false).resident_bytes();
   }
   return row;
 }

@@ -16,7 +16,7 @@ MaterialSource MaterialSource::open(const std::filesystem::path& path, const Sou
   source.file_bytes_ = bytes.size();
   if (sniff(bytes, bytes.size()) == FileFormat::brdfc) {
     source.bytes_ = cut_to_prefix(std::move(bytes), options.prefix, source.path_);
-    source.material_ = decode_file(source.bytes_, options.level, options.prefix.has_value(), source.path_);
+    source.material_ = decode_file(source.bytes_, options.level, options.prefix.has_value(), source.path_, true);
     return source;
   }
   IngestOptions ingest;

@@ -6,8 +6,8 @@
 
 namespace brdf::cli {
 
-/// The material itself for a compressed source. For a measured one a few lobes fitted to it, whose mixture always has a
-/// cosine part and so reaches every direction; the same file gives the same density each time.
+/// The material itself for a compressed source. For a measured one a few lobes fitted to it, whose density always
+/// has a cosine part and so reaches every direction; the same file gives the same density each time.
 Material sampling_density(const MaterialSource& source);
 
 }  // namespace brdf::cli

@@ -42,6 +42,7 @@ struct DecodeOptions {
   DecodeLimits limits;
   bool allow_prefix = false;              ///< accept a file cut at a refinement boundary
   EvalLevel level = EvalLevel::balanced;  ///< prepared for this level
+  bool sampling = true;                   ///< prepared for sampling, too
 };
 
 /// Recorded error of a refinement at a level, as measured by the encoder against its source.
@@ -79,23 +80,30 @@ class Material {
   static Material from_lobes(const LobeSet& lobes);
 
   /// A new handle with the tables of `level` built. May allocate and throw Error(limit_exceeded).
+  Material prepare(EvalLevel level, bool sampling) const;
+  /// The same, for sampling if this one is.
   Material prepare(EvalLevel level) const;
 
   int channels() const noexcept;
   EvalLevel level() const noexcept;
   const MaterialInfo& info() const noexcept;
   const LobeSet& lobes() const noexcept;
+  bool sampling() const noexcept;                 ///< prepared for sampling
   std::uint64_t resident_bytes() const noexcept;  ///< of the tables that evaluation touches
+  std::uint64_t sampling_bytes() const noexcept;  ///< of the tables that sample and pdf touch beside them; 0 without
 
   void eval(const Vec3f& wi, const Vec3f& wo, std::span<float> f) const noexcept;
-  /// Density of `sample` at wi given wo, per solid angle of wi.
+  /// Density of `sample` at wi given wo, per solid angle of wi. A material that is not prepared for sampling draws
+  /// cosine-distributed directions, and this is their density.
   float pdf(const Vec3f& wi, const Vec3f& wo) const noexcept;
   float eval_pdf(const Vec3f& wi, const Vec3f& wo, std::span<float> f) const noexcept;
-  /// Draws wi given wo. u in [0,1)^3: u.x chooses the component, (u.y, u.z) are warped. `weight` = f cos_i / pdf per
-  /// channel. A rejected sample has pdf 0, weight 0 and no flags.
+  /// Draws wi given wo. u in [0,1)^3: (u.y, u.z) are warped, continuously, to the directions above the horizon; u.x
+  /// chooses the component of a material that has retro lobes and is not used otherwise. `weight` = f cos_i / pdf per
+  /// channel. Nothing is rejected: only with wo at or below the horizon pdf is 0, weight 0 and no flag set.
   Sample sample(const Vec3f& wo, const Vec3f& u, std::span<float> weight,
                 TransportMode mode = TransportMode::radiance) const noexcept;
-  /// Directional albedo: integral of f cos_i over wi, by deterministic quadrature (about 1e-3 relative).
+  /// Directional albedo: integral of f cos_i over wi, by deterministic quadrature: the mean of the weights of 4096 samples
+  /// (about 1e-3 relative where the material is prepared for sampling; without, narrow lobes are missed).
   void albedo(const Vec3f& wo, std::span<float> a) const noexcept;
 
   /// Batches: any size, any alignment, in place not allowed. The instruction set is chosen at run time.
@@ -107,10 +115,13 @@ class Material {
               TransportMode mode = TransportMode::radiance) const noexcept;
 
   struct Impl;
-  explicit Material(std::shared_ptr<const Impl> impl) noexcept : impl_(std::move(impl)) {}
+  struct Sampling;
+  explicit Material(std::shared_ptr<const Impl> impl, std::shared_ptr<const Sampling> sampling = nullptr) noexcept
+      : impl_(std::move(impl)), sampling_(std::move(sampling)) {}
 
  private:
   std::shared_ptr<const Impl> impl_;
+  std::shared_ptr<const Sampling> sampling_;
 };
 
 /// Lengths at which a `.brdfc` file may be cut: after the lobes and after each refinement. The header alone must be there.

@@ -1,9 +1,10 @@
 // SPDX-License-Identifier: Apache-2.0
-// Bytes to a Material, and a Material to another evaluation level.
+// Bytes or lobes to a Material, and a Material to another evaluation level.
 #include "container/content.h"
 #include "decode/resample_slices.h"
 #include "eval/material_impl.h"
 #include "residual/reconstruct.h"
+#include "sample/build_density.h"
 
 #include <brdf/error.h>
 #include <brdf/material.h>
@@ -34,6 +35,11 @@ eval::Residual residual_for(const Source& source, const LobeSet& lobes, EvalLeve
   return decode::resample_slices(source.coefficients, lobes, size);
 }
 
+Material with_sampling(std::shared_ptr<const Material::Impl> impl, bool sampling) {
+  auto tables = sampling ? sample::build_density(impl->lobes, impl->tables) : nullptr;
+  return Material(std::move(impl), std::move(tables));
+}
+
 }  // namespace
 
 Material Material::decode(std::span<const std::byte> bytes, const DecodeOptions& options) {
@@ -58,19 +64,32 @@ Material Material::decode(std::span<const std::byte> bytes, const DecodeOptions&
   eval::Residual residual = residual_for(*source, content.lobes, options.level);
   auto impl = eval::make_impl(std::move(info), std::move(content.lobes), std::move(residual), options.level);
   impl->source = std::move(source);
-  return Material(std::move(impl));
+  return with_sampling(std::move(impl), options.sampling);
 }
 
 std::vector<std::uint64_t> refinement_boundaries(std::span<const std::byte> bytes, const DecodeLimits& limits) {
   return container::boundaries(bytes, limits);
 }
 
-Material Material::prepare(EvalLevel level) const {
-  if (level == this->level()) return *this;
+Material Material::prepare(EvalLevel level) const { return prepare(level, sampling()); }
+
+Material Material::prepare(EvalLevel level, bool sampling) const {
+  if (level == this->level()) {
+    if (sampling == this->sampling()) return *this;
+    return with_sampling(impl_, sampling);
+  }
   const auto* source = static_cast<const Source*>(impl_->source.get());
   auto impl = eval::make_impl(impl_->info, impl_->lobes, source != nullptr ? residual_for(*source, impl_->lobes, level) : eval::Residual{}, level);
   impl->source = impl_->source;
-  return Material(std::move(impl));
+  return with_sampling(std::move(impl), sampling);
+}
+
+Material Material::from_lobes(const LobeSet& lobes) {
+  MaterialInfo info;
+  info.channels.count = lobes.channels;
+  info.channels.model = lobes.channels == 3 ? ChannelModel::rgb : ChannelModel::scalar;
+  info.reciprocal = true;
+  return with_sampling(eval::make_impl(std::move(info), lobes, {}, EvalLevel::fast), true);
 }
 
 }  // namespace brdf

@@ -33,6 +33,7 @@ ErrorReport Verification::score(const Material& material) const {
 
 ErrorReport Verification::score(std::span<const std::byte> bytes, EvalLevel level) const {
   DecodeOptions decode;
+  decode.sampling = false;
   decode.level = level;
   decode.allow_prefix = true;
   return score(Material::decode(bytes, decode));

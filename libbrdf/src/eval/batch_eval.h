@@ -9,7 +9,5 @@
 namespace brdf::eval {
 
 void eval_batch(const Tables& t, DirectionSpan wi, DirectionSpan wo, PlanarSpan f) noexcept;
-void pdf_batch(const Tables& t, DirectionSpan wi, DirectionSpan wo, float* pdf) noexcept;
-void eval_pdf_batch(const Tables& t, DirectionSpan wi, DirectionSpan wo, PlanarSpan f, float* pdf) noexcept;
 
 }  // namespace brdf::eval

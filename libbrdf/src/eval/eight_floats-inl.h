@@ -39,6 +39,27 @@ HWY_INLINE EightFloats add_scaled(const EightFloats& a, float scale, const Eight
   return {hn::MulAdd(hn::Set(Eight(), scale), b.v, a.v)};
 }
 
+/// weight p[i]
+HWY_INLINE EightFloats weighted_eight(float weight, const float* p) {
+  return {hn::Mul(hn::Set(Eight(), weight), hn::LoadU(Eight(), p))};
+}
+
+/// sum + weight p[i]
+HWY_INLINE EightFloats add_weighted_eight(const EightFloats& sum, float weight, const float* p) {
+  return {hn::MulAdd(hn::Set(Eight(), weight), hn::LoadU(Eight(), p), sum.v)};
+}
+
+/// Number of lanes that are not above x.
+HWY_INLINE std::size_t count_up_to(const EightFloats& a, float x) {
+  return hn::CountTrue(Eight(), hn::Le(a.v, hn::Set(Eight(), x)));
+}
+
+/// The same of lanes 0, 2 and 4; the others must not be negative.
+HWY_INLINE std::size_t count_even_up_to(const EightFloats& a, float x) {
+  HWY_ALIGN static constexpr float out[8] = {0, 2e30f, 0, 2e30f, 0, 2e30f, 2e30f, 2e30f};
+  return hn::CountTrue(Eight(), hn::Le(a.v, hn::Sub(hn::Set(Eight(), x), hn::Load(Eight(), out))));
+}
+
 /// max(0, (lobes + epsilon) ratio - epsilon)
 HWY_INLINE EightFloats with_ratio(const EightFloats& lobes, const EightFloats& ratio, float epsilon) {
   const auto e = hn::Set(Eight(), epsilon);
@@ -93,6 +114,28 @@ HWY_INLINE EightFloats subtract(const EightFloats& a, const EightFloats& b) { re
 
 HWY_INLINE EightFloats add_scaled(const EightFloats& a, float scale, const EightFloats& b) {
   return {a.v + scale * b.v};
+}
+
+HWY_INLINE EightFloats weighted_eight(float weight, const float* p) {
+  EightFloats a;
+  std::memcpy(&a.v, p, sizeof a.v);
+  a.v *= weight;
+  return a;
+}
+
+HWY_INLINE EightFloats add_weighted_eight(const EightFloats& sum, float weight, const float* p) {
+  return {sum.v + weighted_eight(weight, p).v};
+}
+
+HWY_INLINE std::size_t count_up_to(const EightFloats& a, float x) {
+  const auto at_most = a.v <= x;  // -1 where true
+  int count = 0;
+  for (int i = 0; i < 8; ++i) count -= at_most[i];
+  return static_cast<std::size_t>(count);
+}
+
+HWY_INLINE std::size_t count_even_up_to(const EightFloats& a, float x) {
+  return static_cast<std::size_t>((a.v[0] <= x) + (a.v[2] <= x) + (a.v[4] <= x));
 }
 
 HWY_INLINE EightFloats with_ratio(const EightFloats& lobes, const EightFloats& ratio, float epsilon) {

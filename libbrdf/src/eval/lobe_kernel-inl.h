@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// A vector of pairs: their geometry, the lobes' values and the density of the sampling mixture. The formulas, and why
-// they are symmetric to the last bit, are those of eval/pair_terms.h and eval/scalar_eval.cpp.
+// A vector of pairs: their geometry and the lobes' values. The formulas, and why they are symmetric to the last bit, are
+// those of eval/pair_terms.h and eval/scalar_eval.cpp.
 #include "eval/pair_terms.h"
 #include "eval/tables.h"
 
@@ -109,48 +109,6 @@ HWY_INLINE V for_each_lobe(const LobeParams& lobes, const PairVectors& p, Each&&
   if (HWY_UNLIKELY(turn < end))
     for_lobes(lobes, turn, end, p, p.d_xy2, hn::Sqrt(hn::Add(p.d_xy2, p.s_z2)), grazing, each);
   return grazing;
-}
-
-/// Bernstein basis of the mixture weights; see eval/mixture.h.
-struct BernsteinVectors {
-  V power[Mixture::controls];
-};
-
-HWY_INLINE BernsteinVectors bernstein_vectors(V cos_o) {
-  const V x = hn::Min(cos_o, set(1.0f)), y = hn::Sub(set(1.0f), x);
-  const V x2 = hn::Mul(x, x), y2 = hn::Mul(y, y), x4 = hn::Mul(x2, x2), y4 = hn::Mul(y2, y2);
-  const V x3 = hn::Mul(x2, x), y3 = hn::Mul(y2, y);
-  return {{hn::Mul(y4, y), hn::Mul(y4, x), hn::Mul(y3, x2), hn::Mul(y2, x3), hn::Mul(y, x4), hn::Mul(x4, x)}};
-}
-
-HWY_INLINE V mixture_weights(const Mixture::Curve& curve, const BernsteinVectors& b) {
-  V w = hn::Mul(set(curve[0]), b.power[0]);
-  for (std::size_t j = 1; j < Mixture::controls; ++j) w = hn::MulAdd(set(curve[j]), b.power[j], w);
-  return w;
-}
-
-/// Adds the densities of the lobes from `first` to `last`, which share a half vector; takes their weights from `rest`.
-HWY_INLINE void add_densities(const Tables& t, std::size_t first, std::size_t last, const PairVectors& p,
-                              const BernsteinVectors& basis, V in_plane, V& rest, V& density) {
-  const V numerator = ndf_numerator(in_plane, p.s_z2), cos_o2 = hn::Mul(p.cos_o, p.cos_o);
-  for (std::size_t k = first; k < last; ++k) {
-    const GgxLobe& g = t.lobes.ggx[k];
-    const V w = mixture_weights(t.mixture.lobe[k], basis);
-    rest = hn::Sub(rest, w);
-    const V one_sided = hn::Add(p.cos_o, slope_length(g, cos_o2));
-    density = hn::MulAdd(w, guarded_quotient(g, numerator, in_plane, p.s_z2, one_sided), density);
-  }
-}
-
-/// Density of the mixture at cos_i given cos_o; 0 for pairs that are not valid.
-HWY_INLINE V mixture_density(const Tables& t, const PairVectors& p) {
-  const BernsteinVectors basis = bernstein_vectors(p.cos_o);
-  V rest = set(1.0f), density = hn::Zero(Floats());
-  const std::size_t turn = t.lobes.forward_count, end = t.lobes.ggx.size();
-  add_densities(t, 0, turn, p, basis, p.s_xy2, rest, density);
-  if (HWY_UNLIKELY(turn < end)) add_densities(t, turn, end, p, basis, p.d_xy2, rest, density);
-  const V cosine = hn::Mul(p.cos_i, set(std::numbers::inv_pi_v<float>));
-  return hn::IfThenElseZero(p.valid, hn::MulAdd(hn::Max(rest, hn::Zero(Floats())), cosine, density));
 }
 
 }  // namespace brdf::eval::HWY_NAMESPACE

@@ -1,7 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "eval/batch_eval.h"
 #include "eval/material_impl.h"
-#include "eval/scalar_eval.h"
 #include "eval/single_eval.h"
 
 #include <utility>
@@ -28,19 +27,10 @@ std::shared_ptr<Material::Impl> make_impl(MaterialInfo info, LobeSet lobes, Resi
   impl->tables.lobes = LobeParams(impl->lobes);
   impl->tables.grid = GridParams(impl->residual.grid, impl->lobes.channels);
   if (impl->residual.slices) impl->tables.slices = impl->residual.slices->view();
-  impl->tables.mixture = Mixture(impl->tables);
   return impl;
 }
 
 }  // namespace eval
-
-Material Material::from_lobes(const LobeSet& lobes) {
-  MaterialInfo info;
-  info.channels.count = lobes.channels;
-  info.channels.model = lobes.channels == 3 ? ChannelModel::rgb : ChannelModel::scalar;
-  info.reciprocal = true;
-  return Material(eval::make_impl(std::move(info), lobes, {}, EvalLevel::fast));
-}
 
 int Material::channels() const noexcept { return impl_->tables.lobes.channels; }
 EvalLevel Material::level() const noexcept { return impl_->level; }
@@ -50,7 +40,6 @@ const LobeSet& Material::lobes() const noexcept { return impl_->lobes; }
 std::uint64_t Material::resident_bytes() const noexcept {
   const eval::Tables& t = impl_->tables;
   return sizeof(eval::Tables) + t.lobes.ggx.size() * sizeof(eval::GgxLobe) +
-         t.mixture.lobe.size() * sizeof(eval::Mixture::Curve) +
          (t.lobes.lambert.size() + t.lobes.f0.size()) * sizeof(float) +
          impl_->residual.grid.ratio.size() * sizeof(std::uint16_t) + (impl_->residual.slices ? impl_->residual.slices->bytes() : 0);
 }
@@ -59,22 +48,8 @@ void Material::eval(const Vec3f& wi, const Vec3f& wo, std::span<float> f) const 
   eval::eval_single(impl_->tables, wi, wo, f);
 }
 
-float Material::pdf(const Vec3f& wi, const Vec3f& wo) const noexcept { return eval::pdf_scalar(impl_->tables, wi, wo); }
-
-float Material::eval_pdf(const Vec3f& wi, const Vec3f& wo, std::span<float> f) const noexcept {
-  return eval::eval_pdf_single(impl_->tables, wi, wo, f);
-}
-
 void Material::eval(DirectionSpan wi, DirectionSpan wo, PlanarSpan f) const noexcept {
   eval::eval_batch(impl_->tables, wi, wo, f);
-}
-
-void Material::pdf(DirectionSpan wi, DirectionSpan wo, float* pdf) const noexcept {
-  eval::pdf_batch(impl_->tables, wi, wo, pdf);
-}
-
-void Material::eval_pdf(DirectionSpan wi, DirectionSpan wo, PlanarSpan f, float* pdf) const noexcept {
-  eval::eval_pdf_batch(impl_->tables, wi, wo, f, pdf);
 }
 
 }  // namespace brdf

@@ -16,7 +16,7 @@ constexpr float inv_pi = std::numbers::inv_pi_v<float>;
 /// D = numerator / denominator^2 with
 ///   numerator = |s|^4 / pi,   denominator = |s|^2 (sin^2 theta_h / alpha + alpha cos^2 theta_h),
 /// kept apart so that one division serves D and what it is divided by. Near the peak no digits cancel, and at alpha 1e-5
-/// nothing leaves the range of float. Here the numerator is halved, as both uses want it.
+/// nothing leaves the range of float. Here the numerator is halved, as f wants it.
 struct Ndf {
   float numerator, denominator;
 };
@@ -36,11 +36,6 @@ inline float ggx_value(const GgxLobe& g, const PairTerms& p) noexcept {
   const float shadowing = p.low * std::sqrt(g.alpha2 + g.one_minus_alpha2 * (p.high * p.high)) +
                           p.high * std::sqrt(g.alpha2 + g.one_minus_alpha2 * (p.low * p.low));
   return guarded_quotient(ndf(g, p), shadowing);
-}
-
-/// Density of wi from the visible normals of wo: G1 D / (4 cos_o) (Heitz 2018, eq. 3 with the reflection Jacobian).
-inline float ggx_density(const GgxLobe& g, const PairTerms& p, float cos_o) noexcept {
-  return guarded_quotient(ndf(g, p), cos_o + std::sqrt(g.alpha2 + g.one_minus_alpha2 * (cos_o * cos_o)));
 }
 
 /// Lobe values apart from colour: f_c = lambert_c + sum f0_kc plain_k + grazing.
@@ -104,17 +99,6 @@ void eval_terms(const LobeParams& lobes, const GridParams& g, const PairTerms& p
   }
 }
 
-float pdf_terms(const Tables& t, const PairTerms& p, float cos_i, float cos_o) noexcept {
-  const Mixture::Curve powers = bernstein_powers(std::min(cos_o, 1.0f));
-  float rest = 1.0f, density = 0.0f;
-  for (std::size_t k = 0; k < t.lobes.ggx.size(); ++k) {
-    const float w = mixture_weight(t.mixture.lobe[k], powers);
-    rest -= w;
-    density += w * ggx_density(t.lobes.ggx[k], p, cos_o);
-  }
-  return density + std::max(rest, 0.0f) * (cos_i * inv_pi);
-}
-
 }  // namespace
 
 void eval_scalar(const LobeParams& lobes, const GridParams& grid, const Vec3f& wi, const Vec3f& wo,
@@ -125,18 +109,6 @@ void eval_scalar(const LobeParams& lobes, const GridParams& grid, const Vec3f& w
     eval_terms(lobes, grid, p, f);
   else
     std::fill(f.begin(), f.end(), 0.0f);
-}
-
-void component_densities(const LobeParams& lobes, const Vec3f& wi, const Vec3f& wo, std::span<float> density) noexcept {
-  const PairTerms p = pair_terms(wi, wo);
-  density[0] = p.valid ? wi.z * inv_pi : 0.0f;
-  for (std::size_t k = 0; k < lobes.ggx.size(); ++k)
-    density[k + 1] = p.valid ? ggx_density(lobes.ggx[k], p, wo.z) : 0.0f;
-}
-
-float pdf_scalar(const Tables& t, const Vec3f& wi, const Vec3f& wo) noexcept {
-  const PairTerms p = pair_terms(wi, wo);
-  return p.valid ? pdf_terms(t, p, wi.z, wo.z) : 0.0f;
 }
 
 }  // namespace brdf::eval

@@ -13,10 +13,4 @@ namespace brdf::eval {
 void eval_scalar(const LobeParams& lobes, const GridParams& grid, const Vec3f& wi, const Vec3f& wo,
                  std::span<float> f) noexcept;
 
-/// Density of the sampling mixture at wi given wo.
-float pdf_scalar(const Tables& t, const Vec3f& wi, const Vec3f& wo) noexcept;
-
-/// Densities of the components alone: the cosine lobe, then each GGX lobe.
-void component_densities(const LobeParams& lobes, const Vec3f& wi, const Vec3f& wo, std::span<float> density) noexcept;
-
 }  // namespace brdf::eval

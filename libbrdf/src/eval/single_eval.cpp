@@ -56,10 +56,5 @@ void eval_single(const Tables& t, const Vec3f& wi, const Vec3f& wo, std::span<fl
     eval_scalar(t.lobes, t.grid, wi, wo, f);
 }
 
-float eval_pdf_single(const Tables& t, const Vec3f& wi, const Vec3f& wo, std::span<float> f) noexcept {
-  eval_single(t, wi, wo, f);
-  return pdf_scalar(t, wi, wo);
-}
-
 }  // namespace brdf::eval
 #endif

@@ -13,7 +13,4 @@ namespace brdf::eval {
 /// f of the whole material into `f`, channels values.
 void eval_single(const Tables& t, const Vec3f& wi, const Vec3f& wo, std::span<float> f) noexcept;
 
-/// f and the density of the sampling mixture at wi given wo.
-float eval_pdf_single(const Tables& t, const Vec3f& wi, const Vec3f& wo, std::span<float> f) noexcept;
-
 }  // namespace brdf::eval

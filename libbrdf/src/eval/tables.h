@@ -1,10 +1,9 @@
 // SPDX-License-Identifier: Apache-2.0
-// Everything that evaluation, pdf and sampling read.
+// Everything that evaluation reads.
 #pragma once
 
 #include "eval/grid_params.h"
 #include "eval/lobe_params.h"
-#include "eval/mixture.h"
 #include "slices/slice_table.h"
 
 namespace brdf::eval {
@@ -13,7 +12,6 @@ struct Tables {
   LobeParams lobes;
   GridParams grid;
   slices::SliceView slices;  ///< with values: f is what they say, without lobes and grid
-  Mixture mixture;
 };
 
 }  // namespace brdf::eval

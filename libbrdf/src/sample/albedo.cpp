@@ -1,55 +1,54 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "sample/albedo.h"
 
-#include "eval/scalar_eval.h"
-#include "eval/single_eval.h"
-#include "eval/warp.h"
+#include "sample/batch_sample.h"
 
 #include <algorithm>
 #include <array>
-#include <cmath>
+#include <cstddef>
 
 namespace brdf::sample {
 
 namespace {
 
-constexpr std::size_t budget = 4096;
-constexpr std::size_t max_components = eval::max_ggx_lobes + 1;
+constexpr std::size_t strata = 64;  ///< along each number
 
-/// Channels that one pass keeps on the stack.
-constexpr std::size_t max_channels = 1024;
+/// Channels that one pass keeps on the stack, and the weights of one call.
+constexpr std::size_t max_channels = 1024, max_weights = 16384;
 
 }  // namespace
 
-/// Every component draws a fixed number of low-discrepancy points (R2 sequence, Roberts 2018), and each point counts with
-/// the balance heuristic over all components (Veach and Guibas 1995), so no choice of component adds noise.
-void albedo(const eval::Tables& t, const Vec3f& wo, std::span<float> a) noexcept {
-  a = a.first(static_cast<std::size_t>(t.lobes.channels));
+/// The centres of equal squares of (u.y, u.z). The component walks along the diagonals, in golden steps: each row and each
+/// column of squares sees it at evenly spread numbers.
+void albedo(const eval::Tables& t, const Material::Sampling* s, const Vec3f& wo, std::span<float> a) noexcept {
+  const auto channels = static_cast<std::size_t>(t.lobes.channels);
+  a = a.first(channels);
   std::fill(a.begin(), a.end(), 0.0f);
-  if (!(wo.z > 0.0f) || a.size() > max_channels) return;
-  const std::size_t n = t.lobes.ggx.size() + 1, each = budget / n;
-  std::array<float, max_components> density{};
-  std::array<float, max_channels> f;
+  if (!(wo.z > 0.0f) || channels > max_channels) return;
+  const std::size_t step = std::min(strata, max_weights / channels);
+  std::array<float, strata> wo_x, wo_y, wo_z, u_x, u_y, u_z, x, y, z, pdf;
+  std::array<float, max_weights> weight;
   std::array<double, max_channels> sum;
-  std::fill_n(sum.begin(), a.size(), 0.0);
-  for (std::size_t k = 0; k < n; ++k) {
-    for (std::size_t j = 0; j < each; ++j) {
-      const double i = 0.5 + static_cast<double>(j);
-      const auto u = static_cast<float>(i / static_cast<double>(each));
-      const auto v = static_cast<float>(i * 0.61803398874989485 - std::floor(i * 0.61803398874989485));
-      const Vec3f wi = k == 0 ? eval::cosine_direction(u, v) : eval::ggx_direction(t.lobes.ggx[k - 1], wo, u, v);
-      if (!(wi.z > 0.0f)) continue;
-      eval::component_densities(t.lobes, wi, wo, density);
-      float total = 0;
-      for (std::size_t c = 0; c < n; ++c) total += density[c];
-      if (!(total > 0.0f)) continue;
-      const std::span<float> values = std::span(f).first(a.size());
-      eval::eval_single(t, wi, wo, values);
-      const double w = static_cast<double>(wi.z / total);
-      for (std::size_t c = 0; c < a.size(); ++c) sum[c] += static_cast<double>(values[c]) * w;
+  std::fill_n(sum.begin(), channels, 0.0);
+  wo_x.fill(wo.x);
+  wo_y.fill(wo.y);
+  wo_z.fill(wo.z);
+  for (std::size_t row = 0; row < strata; ++row) {
+    u_y.fill((static_cast<float>(row) + 0.5f) / strata);
+    for (std::size_t first = 0; first < strata; first += step) {
+      const std::size_t size = std::min(step, strata - first);
+      for (std::size_t i = 0; i < size; ++i) {
+        const double turns = static_cast<double>(first + i + row) * 0.61803398874989485;
+        u_x[i] = static_cast<float>(turns - static_cast<double>(static_cast<int>(turns)));
+        u_z[i] = (static_cast<float>(first + i) + 0.5f) / strata;
+      }
+      sample_batch(t, s, {wo_x.data(), wo_y.data(), wo_z.data(), size}, {u_x.data(), u_y.data(), u_z.data(), size},
+                   {x.data(), y.data(), z.data(), size}, pdf.data(), {weight.data(), size});
+      for (std::size_t c = 0; c < channels; ++c)
+        for (std::size_t i = 0; i < size; ++i) sum[c] += static_cast<double>(weight[c * size + i]);
     }
   }
-  for (std::size_t c = 0; c < a.size(); ++c) a[c] = static_cast<float>(sum[c] / static_cast<double>(each));
+  for (std::size_t c = 0; c < channels; ++c) a[c] = static_cast<float>(sum[c] / (strata * strata));
 }
 
 }  // namespace brdf::sample

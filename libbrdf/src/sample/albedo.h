@@ -5,12 +5,13 @@
 #include "eval/tables.h"
 
 #include <brdf/direction.h>
+#include <brdf/material.h>
 
 #include <span>
 
 namespace brdf::sample {
 
 /// Integral of f cos_i over wi. See Material::albedo.
-void albedo(const eval::Tables& t, const Vec3f& wo, std::span<float> a) noexcept;
+void albedo(const eval::Tables& t, const Material::Sampling* s, const Vec3f& wo, std::span<float> a) noexcept;
 
 }  // namespace brdf::sample

@@ -1,0 +1,18 @@
+// SPDX-License-Identifier: Apache-2.0
+// Tabulates the density of a material.
+#pragma once
+
+#include "eval/tables.h"
+#include "sample/density.h"
+
+#include <brdf/lobes.h>
+#include <brdf/material.h>
+
+#include <memory>
+
+namespace brdf::sample {
+
+/// From f of `tables`; `lobes` are the material's own and say where it is peaked.
+std::shared_ptr<const Material::Sampling> build_density(const LobeSet& lobes, const eval::Tables& tables);
+
+}  // namespace brdf::sample

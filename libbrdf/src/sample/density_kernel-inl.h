@@ -1,0 +1,166 @@
+// SPDX-License-Identifier: Apache-2.0
+// Search and look-up in the tables of sample/density.h for a block of pairs: what all share is computed for a vector of
+// pairs at once, the tables are read pair by pair in whole rows.
+#include "sample/density.h"
+
+#include <cstring>
+
+#include "sample/map_kernel-inl.h"
+
+#if defined(BRDF_SAMPLE_DENSITY_KERNEL_INL_H_) == defined(HWY_TARGET_TOGGLE)
+#ifdef BRDF_SAMPLE_DENSITY_KERNEL_INL_H_
+#undef BRDF_SAMPLE_DENSITY_KERNEL_INL_H_
+#else
+#define BRDF_SAMPLE_DENSITY_KERNEL_INL_H_
+#endif
+
+HWY_BEFORE_NAMESPACE();
+namespace brdf::sample::HWY_NAMESPACE {
+using kernel::block_pairs;
+using Table = ComponentTable;
+
+/// Position among the views of a table.
+HWY_INLINE kernel::CellPosition view_position(V cos_o) {
+  constexpr float steps = static_cast<float>(Table::views - 1) + Table::first_view;
+  constexpr float near_horizon = steps * Table::horizon_share, near_normal = steps - near_horizon;
+  const V sine2 = hn::Max(hn::Sub(set(1.0f), cos_o), hn::Zero(Floats()));  // twice that of theta_o / 2
+  const V at = hn::MulAdd(kernel::root(cos_o), set(near_horizon), hn::NegMulAdd(kernel::root(sine2), set(near_normal), set(near_normal - Table::first_view)));
+  return kernel::cell_position(hn::Max(at, hn::Zero(Floats())), static_cast<int>(Table::views) - 2);
+}
+
+/// A cell of the table for each pair, and what is found there.
+struct CellBlock {
+  HWY_ALIGN std::int32_t view[block_pairs];  ///< lower one of the two that are interpolated
+  HWY_ALIGN float to_view[block_pairs];
+  HWY_ALIGN std::int32_t row[block_pairs];  ///< the conditional row of the lower view and the lower column
+  HWY_ALIGN float weight[4][block_pairs];   ///< of the rows: column, next column, then both of the next view
+  HWY_ALIGN std::int32_t cell[block_pairs];
+  HWY_ALIGN float node[4 * block_pairs];  ///< integral and density at either edge of the cell
+  HWY_ALIGN float edge[2 * block_pairs];
+
+  /// What vectors read behind the last pair must be numbers.
+  HWY_INLINE void pad(std::size_t size, std::size_t vectors) {
+    if (HWY_LIKELY(size == vectors)) return;
+    for (std::size_t i = 4 * size; i < 4 * vectors; ++i) node[i] = 0;
+    for (std::size_t i = 2 * size; i < 2 * vectors; ++i) edge[i] = 0;
+    for (std::size_t i = size; i < vectors; ++i) cell[i] = 0;
+  }
+};
+
+/// The four rows around (view, v) and their weights.
+HWY_INLINE void place_rows(CellBlock& b, std::size_t at, VI view, VI column, V to_view, V to_column) {
+  const Floats d;
+  const Ints di;
+  const V one = set(1.0f), below_view = hn::Sub(one, to_view), below = hn::Sub(one, to_column);
+  const VI rows = hn::Mul(view, hn::Set(di, static_cast<std::int32_t>(Table::rows_per_view)));
+  hn::Store(hn::Add(rows, column), di, b.row + at);
+  hn::Store(hn::Mul(below_view, below), d, b.weight[0] + at);
+  hn::Store(hn::Mul(below_view, to_column), d, b.weight[1] + at);
+  hn::Store(hn::Mul(to_view, below), d, b.weight[2] + at);
+  hn::Store(hn::Mul(to_view, to_column), d, b.weight[3] + at);
+}
+
+/// Rows of one pair that are interpolated: two of the marginal table or four of the conditional one.
+template <std::size_t n>
+struct RowsOfPair {
+  static constexpr std::size_t row_floats = sizeof(DensityRow) / sizeof(float);
+  static constexpr std::size_t first_node = offsetof(DensityRow, node) / sizeof(float);
+  static constexpr std::size_t view_floats = row_floats * (n == 4 ? Table::rows_per_view : 1);
+
+  const float* row;
+  float weight[n];
+
+  HWY_INLINE kernel::EightFloats eight(std::size_t offset) const {
+    const float* const p = row + offset;
+    if constexpr (n == 2) {
+      return kernel::add_weighted_eight(kernel::weighted_eight(weight[0], p), weight[1], p + view_floats);
+    } else {  // as two sums: a shorter chain
+      const auto view = kernel::add_weighted_eight(kernel::weighted_eight(weight[0], p), weight[1], p + row_floats);
+      const float* const q = p + view_floats;
+      return kernel::add_scaled(view, 1.0f, kernel::add_weighted_eight(kernel::weighted_eight(weight[2], q), weight[3], q + row_floats));
+    }
+  }
+  HWY_INLINE void store_node(std::size_t cell, float* HWY_RESTRICT out) const {
+    const float* const p = row + first_node + 2 * cell;
+    if constexpr (n == 2) {
+      kernel::store_four(weight[0] * kernel::load_four(p) + weight[1] * kernel::load_four(p + view_floats), out);
+    } else {
+      const float* const q = p + view_floats;
+      kernel::store_four((weight[0] * kernel::load_four(p) + weight[1] * kernel::load_four(p + row_floats)) +
+                             (weight[2] * kernel::load_four(q) + weight[3] * kernel::load_four(q + row_floats)),
+                         out);
+    }
+  }
+  /// The number of inner fourth edges whose integral is not above `target`.
+  HWY_INLINE std::size_t quarter(float target) const { return kernel::count_up_to(eight(0), target); }
+  /// The last cell, of those from that edge on, whose lower edge's integral is not above `target`.
+  HWY_INLINE std::size_t cell(std::size_t quarter, float target) const {
+    return 4 * quarter + kernel::count_even_up_to(eight(first_node + 2 + 8 * quarter), target);
+  }
+};
+
+HWY_INLINE RowsOfPair<2> marginal_rows(const Table& t, const CellBlock& b, std::size_t i) {
+  const float up = b.to_view[i];
+  return {(t.marginal.data() + b.view[i])->quarter.data(), {1.0f - up, up}};
+}
+
+HWY_INLINE RowsOfPair<4> conditional_rows(const Table& t, const CellBlock& b, std::size_t i) {
+  return {(t.conditional.data() + b.row[i])->quarter.data(), {b.weight[0][i], b.weight[1][i], b.weight[2][i], b.weight[3][i]}};
+}
+
+/// Cells of `size` pairs that hold the integrals in `target`, and what is at their edges. Step by step for all: each step
+/// of a pair waits for the one before, and the processor looks ahead over few pairs.
+template <class Rows>
+HWY_INLINE void search_rows(std::size_t size, const float* HWY_RESTRICT target, CellBlock& b, const Rows& rows) {
+  for (std::size_t i = 0; i < size; ++i) b.cell[i] = static_cast<std::int32_t>(rows(i).quarter(target[i]));
+  for (std::size_t i = 0; i < size; ++i) {
+    const auto r = rows(i);
+    const std::size_t cell = r.cell(static_cast<std::size_t>(b.cell[i]), target[i]);
+    b.cell[i] = static_cast<std::int32_t>(cell);
+    r.store_node(cell, b.node + 4 * i);
+  }
+}
+
+HWY_INLINE void read_edge(const Table& t, CellBlock& b, std::size_t i) {
+  std::memcpy(b.edge + 2 * i, t.edge.data() + b.cell[i], 2 * sizeof(float));
+}
+
+/// Position in a cell where the integral of a density from a to e has risen to `rise` (of a cell of width 1).
+HWY_INLINE V inverse_integral(V a, V e, V rise) {
+  const V zero = hn::Zero(Floats()), twice = hn::Add(rise, rise);
+  const V root = kernel::root(hn::Max(hn::MulAdd(hn::Sub(e, a), twice, hn::Mul(a, a)), zero));
+  return hn::Min(hn::Max(kernel::quotient(twice, hn::Add(a, root)), zero), set(1.0f));
+}
+
+/// a + f (e - a) for positive a and e: never negative.
+HWY_INLINE V between(V a, V e, V f) { return hn::MulAdd(f, e, hn::Mul(hn::Sub(set(1.0f), f), a)); }
+
+/// Density at `point`s; pass one of three, one vector.
+HWY_INLINE void begin_density(const Table& t, V cos_o, const Point& p, CellBlock& b, std::size_t at) {
+  const Floats d;
+  const Ints di;
+  const kernel::CellPosition view = view_position(cos_o);
+  constexpr auto columns = static_cast<float>(Table::columns);
+  const kernel::CellPosition column = kernel::cell_position(hn::Mul(p.v, set(columns)), static_cast<int>(Table::columns) - 1);
+  hn::Store(view.index, di, b.view + at);
+  hn::Store(view.fraction, d, b.to_view + at);
+  place_rows(b, at, view.index, column.index, view.fraction, column.fraction);
+  V cell = hn::Zero(d);
+  for (std::size_t i = 1; i < row_cells; ++i)
+    cell = hn::Add(cell, hn::IfThenElseZero(hn::Ge(p.height, set(t.edge[i])), set(1.0f)));
+  hn::Store(hn::ConvertTo(di, cell), di, b.cell + at);
+}
+
+/// Pass three: density in the unit square.
+HWY_INLINE V finish_density(const CellBlock& b, std::size_t at, V height) {
+  const Floats d;
+  V unused, left, unused_too, right, lower, upper;
+  hn::LoadInterleaved4(d, b.node + 4 * at, unused, left, unused_too, right);
+  hn::LoadInterleaved2(d, b.edge + 2 * at, lower, upper);
+  return between(left, right, hn::Min(kernel::quotient(hn::Sub(height, lower), hn::Sub(upper, lower)), set(1.0f)));
+}
+
+}  // namespace brdf::sample::HWY_NAMESPACE
+HWY_AFTER_NAMESPACE();
+
+#endif  // include guard
