@@ -36,7 +36,7 @@ eval::Residual residual_for(const Source& source, const LobeSet& lobes, EvalLeve
 }
 
 Material with_sampling(std::shared_ptr<const Material::Impl> impl, bool sampling) {
-  auto tables = sampling ? sample::build_density(impl->lobes, impl->tables) : nullptr;
+  auto tables = sampling ? sample::build_density(impl->lobes, impl->tables, impl->info.mirror_symmetric) : nullptr;
   return Material(std::move(impl), std::move(tables));
 }
 

@@ -161,7 +161,6 @@ HWY_INLINE void eval_pairs(const Tables& t, std::size_t n, PlanarSpan planes, co
   const std::size_t lanes = hn::Lanes(Floats());
   if (t.lobes.channels == 3 && t.grid.ratio) {
     BlockRgb block;
-    std::memset(block.ratio, 0, sizeof block.ratio);  // the last vector may read behind the last pair
     for (std::size_t first = 0; first < n; first += block_pairs) {
       const std::size_t size = std::min(block_pairs, n - first);
       const auto begin = [&](std::size_t at, std::size_t count) HWY_ATTR __attribute__((always_inline)) {
@@ -171,7 +170,10 @@ HWY_INLINE void eval_pairs(const Tables& t, std::size_t n, PlanarSpan planes, co
       };
       std::size_t at = 0;
       for (; at + lanes <= size; at += lanes) begin(at, lanes);
-      if (at < size) begin(at, size - at);
+      if (at < size) {
+        std::memset(block.ratio, 0, sizeof block.ratio);  // the last vector reads behind the last pair
+        begin(at, size - at);
+      }
       finish_rgb(t.grid, block, {planes, first, size});
     }
     return;

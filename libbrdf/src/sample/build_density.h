@@ -13,6 +13,6 @@
 namespace brdf::sample {
 
 /// From f of `tables`; `lobes` are the material's own and say where it is peaked.
-std::shared_ptr<const Material::Sampling> build_density(const LobeSet& lobes, const eval::Tables& tables);
+std::shared_ptr<const Material::Sampling> build_density(const LobeSet& lobes, const eval::Tables& tables, bool mirror_symmetric);
 
 }  // namespace brdf::sample

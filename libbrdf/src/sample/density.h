@@ -14,26 +14,37 @@ namespace brdf::sample {
 /// Most cells of a row.
 inline constexpr std::size_t row_cells = 32;
 
-/// A density that is linear in each cell of an interval, and its integral up to each edge, in the order of a search: eight
-/// values first, then the four edges that they lead to. `node` begins where its third value is aligned to 32 bytes.
-struct alignas(64) DensityRow {
-  std::array<float, 8> quarter{};              ///< integrals up to every fourth edge inside; above all others: no edge
+/// A density that is linear in each cell of an interval, and its integral up to each edge. `node` begins where its third
+/// value, the first that a search reads, is aligned to 32 bytes.
+struct alignas(32) DensityRow {
   std::array<float, 6> unused{};
   std::array<float, 2 * row_cells + 2> node{};  ///< integral and density at each edge
 };
-static_assert(sizeof(DensityRow) == 320);
+static_assert(sizeof(DensityRow) == 288);
+
+/// Integrals of a row up to every fourth edge inside; above all others: no edge.
+struct alignas(32) QuarterRow {
+  std::array<float, 8> integral{};
+};
+
+/// Rows in the order of a search, which first reads one of `quarters`. Those of all rows together stay in the fastest cache.
+struct DensityRows {
+  std::vector<QuarterRow> quarters;
+  std::vector<DensityRow> rows;
+};
 
 /// The density of directions whose half vectors with the view lie in lobes around the normal.
 ///
 /// In the unit square of HalfVectorMap: bilinear in v between equal columns and S between `edge`s that crowd where the
 /// lobes are, linear in the view between nodes, each of integral 1, that crowd at the horizon and at the normal: equal
-/// steps of a sqrt(cos theta_o) + (1 - a) (1 - sqrt(1 - cos theta_o)) up to 1, from first_view steps above 0. A density interpolated is the interpolated density's integral, so sampling inverts exactly what pdf answers.
+/// steps of a sqrt(cos theta_o) + (1 - a) (1 - sqrt(1 - cos theta_o)) up to 1, from first_view steps above 0. The integral of
+/// an interpolated density is the interpolated integral, so sampling inverts exactly what pdf answers.
 struct ComponentTable {
   static constexpr std::size_t views = 24, columns = 24, rows_per_view = columns + 1;
   static constexpr float first_view = 0.5f, horizon_share = 0.5f;  ///< the latter is a
   std::array<float, row_cells + 2> edge{};  ///< of S, 0 to 1; the last is padding
-  std::vector<DensityRow> marginal;         ///< over v, one per view
-  std::vector<DensityRow> conditional;      ///< over S, rows_per_view per view
+  DensityRows marginal;                     ///< over v, one per view
+  DensityRows conditional;                  ///< over S, rows_per_view per view
 };
 
 }  // namespace brdf::sample

@@ -65,19 +65,29 @@ template <std::size_t n>
 struct RowsOfPair {
   static constexpr std::size_t row_floats = sizeof(DensityRow) / sizeof(float);
   static constexpr std::size_t first_node = offsetof(DensityRow, node) / sizeof(float);
-  static constexpr std::size_t view_floats = row_floats * (n == 4 ? Table::rows_per_view : 1);
+  static constexpr std::size_t quarter_floats = sizeof(QuarterRow) / sizeof(float);
+  static constexpr std::size_t rows_per_view = n == 4 ? Table::rows_per_view : 1;
+  static constexpr std::size_t view_floats = row_floats * rows_per_view;
 
+  const float* quarters;
   const float* row;
   float weight[n];
 
-  HWY_INLINE kernel::EightFloats eight(std::size_t offset) const {
-    const float* const p = row + offset;
+  HWY_INLINE RowsOfPair(const DensityRows& t, std::size_t first, const float (&w)[n])
+      : quarters(t.quarters[first].integral.data()), row(t.rows[first].unused.data()) {
+    for (std::size_t k = 0; k < n; ++k) weight[k] = w[k];
+  }
+
+  /// Eight values of each row, weighted; rows `stride` apart.
+  HWY_INLINE kernel::EightFloats eight(const float* p, std::size_t stride) const {
+    const auto two = [&](const float* HWY_RESTRICT first, const float* HWY_RESTRICT second, const float* w) HWY_ATTR {
+      return kernel::add_weighted_eight(kernel::weighted_eight(w[0], first), w[1], second);
+    };
     if constexpr (n == 2) {
-      return kernel::add_weighted_eight(kernel::weighted_eight(weight[0], p), weight[1], p + view_floats);
+      return two(p, p + stride, weight);
     } else {  // as two sums: a shorter chain
-      const auto view = kernel::add_weighted_eight(kernel::weighted_eight(weight[0], p), weight[1], p + row_floats);
-      const float* const q = p + view_floats;
-      return kernel::add_scaled(view, 1.0f, kernel::add_weighted_eight(kernel::weighted_eight(weight[2], q), weight[3], q + row_floats));
+      const float* const q = p + stride * rows_per_view;
+      return kernel::add_scaled(two(p, p + stride, weight), 1.0f, two(q, q + stride, weight + 2));
     }
   }
   HWY_INLINE void store_node(std::size_t cell, float* HWY_RESTRICT out) const {
@@ -92,20 +102,20 @@ struct RowsOfPair {
     }
   }
   /// The number of inner fourth edges whose integral is not above `target`.
-  HWY_INLINE std::size_t quarter(float target) const { return kernel::count_up_to(eight(0), target); }
+  HWY_INLINE std::size_t quarter(float target) const { return kernel::count_up_to(eight(quarters, quarter_floats), target); }
   /// The last cell, of those from that edge on, whose lower edge's integral is not above `target`.
   HWY_INLINE std::size_t cell(std::size_t quarter, float target) const {
-    return 4 * quarter + kernel::count_even_up_to(eight(first_node + 2 + 8 * quarter), target);
+    return 4 * quarter + kernel::count_even_up_to(eight(row + first_node + 2 + 8 * quarter, row_floats), target);
   }
 };
 
 HWY_INLINE RowsOfPair<2> marginal_rows(const Table& t, const CellBlock& b, std::size_t i) {
   const float up = b.to_view[i];
-  return {(t.marginal.data() + b.view[i])->quarter.data(), {1.0f - up, up}};
+  return {t.marginal, static_cast<std::size_t>(b.view[i]), {1.0f - up, up}};
 }
 
 HWY_INLINE RowsOfPair<4> conditional_rows(const Table& t, const CellBlock& b, std::size_t i) {
-  return {(t.conditional.data() + b.row[i])->quarter.data(), {b.weight[0][i], b.weight[1][i], b.weight[2][i], b.weight[3][i]}};
+  return {t.conditional, static_cast<std::size_t>(b.row[i]), {b.weight[0][i], b.weight[1][i], b.weight[2][i], b.weight[3][i]}};
 }
 
 /// Cells of `size` pairs that hold the integrals in `target`, and what is at their edges. Step by step for all: each step
@@ -113,12 +123,9 @@ HWY_INLINE RowsOfPair<4> conditional_rows(const Table& t, const CellBlock& b, st
 template <class Rows>
 HWY_INLINE void search_rows(std::size_t size, const float* HWY_RESTRICT target, CellBlock& b, const Rows& rows) {
   for (std::size_t i = 0; i < size; ++i) b.cell[i] = static_cast<std::int32_t>(rows(i).quarter(target[i]));
-  for (std::size_t i = 0; i < size; ++i) {
-    const auto r = rows(i);
-    const std::size_t cell = r.cell(static_cast<std::size_t>(b.cell[i]), target[i]);
-    b.cell[i] = static_cast<std::int32_t>(cell);
-    r.store_node(cell, b.node + 4 * i);
-  }
+  for (std::size_t i = 0; i < size; ++i)
+    b.cell[i] = static_cast<std::int32_t>(rows(i).cell(static_cast<std::size_t>(b.cell[i]), target[i]));
+  for (std::size_t i = 0; i < size; ++i) rows(i).store_node(static_cast<std::size_t>(b.cell[i]), b.node + 4 * i);
 }
 
 HWY_INLINE void read_edge(const Table& t, CellBlock& b, std::size_t i) {

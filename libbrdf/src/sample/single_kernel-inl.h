@@ -42,11 +42,11 @@ struct SingleView {
   }
 
   HWY_INLINE RowsOfPair<2> marginal(const Table& t) const {
-    return {t.marginal[view].quarter.data(), {1 - to_view, to_view}};
+    return {t.marginal, view, {1 - to_view, to_view}};
   }
   HWY_INLINE RowsOfPair<4> conditional(const Table& t, std::size_t column, float to_column) const {
     const float below = 1 - to_view;
-    return {t.conditional[view * Table::rows_per_view + column].quarter.data(),
+    return {t.conditional, view * Table::rows_per_view + column,
             {below * (1 - to_column), below * to_column, to_view * (1 - to_column), to_view * to_column}};
   }
 };

@@ -1,0 +1,190 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "sample/density_nodes.h"
+
+#include <algorithm>
+#include <cmath>
+#include <numbers>
+
+namespace brdf::sample {
+namespace {
+
+using Table = ComponentTable;
+using Map = HalfVectorMap<double>;
+
+/// Share of a cosine-distributed density, where the table's nodes may have missed what f holds between them.
+constexpr double cosine_share = 0.005;
+/// Density that is left everywhere, also at the horizon: quotients of densities stay finite.
+constexpr double least_density = 1e-6;
+/// Views below 60 degrees or so, between which one looks more closely.
+constexpr std::size_t grazing_views = 8;
+
+Map map_at(double position) {
+  const double c = view_cosine(position);
+  return {std::sqrt(1 - c * c), c};
+}
+
+/// A direction of the unit square and what it counts, on both sides.
+template <class T>
+struct Place {
+  glm::vec<3, T> wi;
+  T area;
+};
+
+template <class T>
+Place<T> place(const HalfVectorMap<T>& map, T height, T v) {
+  const typename HalfVectorMap<T>::Half h = map.half_vector(height, v);
+  return {{2 * h.wo_h * h.x - map.s, 2 * h.wo_h * h.y, 2 * h.wo_h * h.z - map.c}, 2 * h.area};
+}
+
+/// The middle of one of `parts` equal parts of [0, 1].
+double middle(std::size_t part, std::size_t parts) { return (static_cast<double>(part) + 0.5) / static_cast<double>(parts); }
+
+/// f cos_i goes to 0 at the horizon, but for grazing views and rough lobes only when cos_i falls below cos_o. What lies in
+/// the middle of the last cell, not that limit, continues the line that the cell begins.
+void reach_horizon(double* last) { *last = std::max(2 * *last - last[-1], 0.0); }
+
+}  // namespace
+
+double view_cosine(double position) {
+  const double wanted = (position + Table::first_view) / (static_cast<double>(Table::views) - 1 + Table::first_view);
+  double below = 0, above = 1;
+  for (int step = 0; step < 60; ++step) {
+    const double c = 0.5 * (below + above);
+    const double t = Table::horizon_share * std::sqrt(c) + (1 - Table::horizon_share) * (1 - std::sqrt(1 - c));
+    (t < wanted ? below : above) = c;
+  }
+  return above;
+}
+
+/// A point of the unit square between nodes.
+struct DensityNodes::Probe {
+  std::size_t node;  ///< of a view: the lower one in both directions
+  double to_column, in_cell;
+  float v, height;
+  double share;  ///< of the unit square
+  bool at_horizon;
+};
+
+/// `parts` in each column, two in each cell of S and three more where the last one ends at the horizon.
+std::vector<DensityNodes::Probe> DensityNodes::probes(std::size_t parts) const {
+  std::vector<Probe> all;
+  const double rows = static_cast<double>(Table::columns * parts);
+  for (std::size_t row = 0; row < Table::columns * parts; ++row) {
+    const double v = (static_cast<double>(row) + 0.5) / rows;
+    const auto add = [&](std::size_t i, double in_cell, double share) {
+      all.push_back({row / parts * edges + i, middle(row % parts, parts), in_cell, static_cast<float>(v),
+                     static_cast<float>(edge_[i] + in_cell * width_[i]), share * width_[i] / rows, i + 1 == row_cells && in_cell > 0.5});
+    };
+    for (std::size_t i = 0; i < row_cells; ++i)
+      for (const double in_cell : {0.25, 0.75}) add(i, in_cell, 0.5);
+    for (const double in_cell : {0.9, 0.97, 0.99}) add(row_cells - 1, in_cell, 0);
+  }
+  return all;
+}
+
+DensityNodes::DensityNodes(const Table& table) : density_(Table::views * per_view) {
+  for (std::size_t i = 0; i < edges; ++i) edge_[i] = static_cast<double>(table.edge[i]);
+  for (std::size_t i = 0; i < row_cells; ++i) width_[i] = edge_[i + 1] - edge_[i];
+}
+
+double DensityNodes::integral(std::span<const double> density) const noexcept {
+  double sum = 0;
+  for (std::size_t j = 0; j < Table::rows_per_view; ++j) {
+    const double* const row = density.data() + j * edges;
+    double total = 0;
+    for (std::size_t i = 0; i < row_cells; ++i) total += 0.5 * (row[i] + row[i + 1]) * width_[i];
+    sum += (j == 0 || j == Table::columns ? 0.5 : 1.0) * total;
+  }
+  return sum / static_cast<double>(Table::columns);
+}
+
+void DensityNodes::normalise(std::size_t k) {
+  const auto nodes = std::span(density_).subspan(k * per_view, per_view);
+  const double whole = integral(nodes);
+  for (double& density : nodes) density /= whole;
+}
+
+void DensityNodes::tabulate(Integrand& f) {
+  std::vector<Vec3d> wi(per_view);
+  std::vector<double> area(per_view), cosine(per_view), f_cos(per_view);
+  for (std::size_t k = 0; k < Table::views; ++k) {
+    const Map map = map_at(static_cast<double>(k));
+    for (std::size_t n = 0; n < per_view; ++n) {
+      const bool last = n % edges == row_cells;  // stands in the middle of the last cell
+      const double height = edge_[n % edges] - (last ? 0.5 * width_[row_cells - 1] : 0.0);
+      const Place<double> p = place(map, height, static_cast<double>(n / edges) / static_cast<double>(Table::columns));
+      wi[n] = p.wi;
+      area[n] = p.area;
+      cosine[n] = std::max(p.wi.z, 0.0) * std::numbers::inv_pi * p.area;
+    }
+    f.evaluate(map, wi, f_cos);
+    for (std::size_t n = 0; n < per_view; ++n) {
+      f_cos[n] *= area[n];
+      if (n % edges == row_cells) reach_horizon(&f_cos[n]), reach_horizon(&cosine[n]);
+    }
+    const double whole = integrals_[k] = integral(f_cos);
+    const double scale = whole > 0 && std::isfinite(whole) ? (1 - cosine_share) / whole : 0;
+    for (std::size_t n = 0; n < per_view; ++n)
+      density_[k * per_view + n] = scale * f_cos[n] + (scale > 0 ? cosine_share : 1.0) * cosine[n] + least_density;
+    normalise(k);
+  }
+}
+
+double DensityNodes::between(std::size_t k, const Probe& p) const noexcept {
+  const double* const n = density_.data() + k * per_view + p.node;
+  const double left = n[0] + p.in_cell * (n[1] - n[0]), right = n[edges] + p.in_cell * (n[edges + 1] - n[edges]);
+  return left + p.to_column * (right - left);
+}
+
+void DensityNodes::cover(Integrand& f, double most) {
+  std::vector<double> raised = density_;
+  const std::vector<Probe> close = probes(2), wide = probes(1);
+  for (std::size_t k = 0; k < Table::views; ++k) {
+    // below the first view, then between two of them; the horizon takes lobes apart where views graze
+    if (k == 0) {
+      cover_view(f, most, close, 0, 0, -0.5 * static_cast<double>(Table::first_view), raised);
+    } else if (k < grazing_views) {
+      for (const double to_upper : {0.25, 0.75}) cover_view(f, most, close, k - 1, k, to_upper, raised);
+    } else {
+      cover_view(f, most, wide, k - 1, k, 0.5, raised);
+    }
+  }
+  density_ = std::move(raised);
+  for (std::size_t k = 0; k < Table::views; ++k) normalise(k);
+}
+
+void DensityNodes::cover_view(Integrand& f, double most, std::span<const Probe> probes, std::size_t lower, std::size_t upper,
+                              double to_upper, std::vector<double>& raised) const {
+  const Map map = map_at(static_cast<double>(lower) + to_upper);
+  const HalfVectorMap<float> quick(static_cast<float>(map.s), static_cast<float>(map.c));
+  std::vector<Vec3d> wi(probes.size());
+  std::vector<double> f_cos(probes.size()), area(probes.size());
+  for (std::size_t n = 0; n < probes.size(); ++n) {
+    const Place<float> p = place(quick, probes[n].height, probes[n].v);
+    wi[n] = Vec3d(p.wi);
+    area[n] = static_cast<double>(p.area);
+  }
+  f.evaluate(map, wi, f_cos);
+  double whole = 0;
+  for (std::size_t n = 0; n < probes.size(); ++n) whole += (f_cos[n] *= area[n]) * probes[n].share;
+  if (!(whole > 0) || !std::isfinite(whole)) return;
+  const double up = std::max(to_upper, 0.0);
+  for (std::size_t n = 0; n < probes.size(); ++n) {
+    const double found = (1 - up) * between(lower, probes[n]) + up * between(upper, probes[n]), wanted = f_cos[n] / (whole * most);
+    if (!(wanted > found) || !std::isfinite(wanted)) continue;
+    for (const std::size_t k : {lower, upper}) raise(raised, k * per_view + probes[n].node, probes[n], wanted, found);
+  }
+}
+
+void DensityNodes::raise(std::vector<double>& raised, std::size_t node, const Probe& at, double wanted, double found) const {
+  for (const std::size_t n : {node, node + edges}) {
+    if (at.at_horizon) {  // the horizon's own nodes are near 0, and no factor would do
+      raised[n + 1] = std::max(raised[n + 1], density_[n + 1] + (wanted - found) / at.in_cell);
+    } else {
+      raised[n] = std::max(raised[n], density_[n] * (wanted / found));
+      raised[n + 1] = std::max(raised[n + 1], density_[n + 1] * (wanted / found));
+    }
+  }
+}
+
+}  // namespace brdf::sample
