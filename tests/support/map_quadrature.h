@@ -28,7 +28,7 @@ struct HemisphereGrid {
   }
 };
 
-/// Integrals over one cell each, of the density and of f cos_i of channel 0.
+/// Integrals over one cell each, of the density and of f cos_i, mean of the channels.
 struct CellIntegrals {
   std::vector<double> pdf, f_cos;
 };
@@ -62,7 +62,9 @@ inline void add_integrals(const Material& m, const Vec3f& wo, const HemisphereGr
     for (std::size_t k = 0; k < view.size(); ++k) {
       const std::size_t cell = grid.cell_of(wi[k]);
       out.pdf[cell] += area[k] * static_cast<double>(pdf[k]);
-      out.f_cos[cell] += area[k] * static_cast<double>(f[k] * wi.z[k]);
+      double sum = 0;
+      for (std::size_t c = k; c < f.size(); c += view.size()) sum += static_cast<double>(f[c]);
+      out.f_cos[cell] += area[k] * sum / static_cast<double>(m.channels()) * static_cast<double>(wi.z[k]);
     }
   }
 }

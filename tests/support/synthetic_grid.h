@@ -80,7 +80,7 @@ inline LobeSet usual_lobes(int channels = 3) {
 
 /// A handle that is prepared for sampling.
 inline Material with_sampling(std::shared_ptr<const Material::Impl> impl) {
-  auto tables = sample::build_density(impl->lobes, impl->tables);
+  auto tables = sample::build_density(impl->lobes, impl->tables, impl->info.mirror_symmetric);
   return Material(std::move(impl), std::move(tables));
 }
 

@@ -27,11 +27,12 @@ struct Angles {
 
 struct Cell {
   double theta, phi, d_theta, d_phi;
-  double mass = 0;
+  double mass = 0;   ///< integral of pdf
+  double f_cos = 0;  ///< integral of the mean of the channels of f cos theta_i
   std::vector<Angles> samples;
 };
 
-/// Sets the mass of every cell, in one batch.
+/// Sets the integrals of every cell, in one batch.
 void integrate(const Material& material, const Vec3f& wo, std::span<Cell> cells) {
   DirectionPlanes wi(cells.size() * nodes), view(cells.size() * nodes);
   std::vector<double> weight(cells.size() * nodes);
@@ -47,12 +48,18 @@ void integrate(const Material& material, const Vec3f& wo, std::span<Cell> cells)
       }
     }
   }
-  std::vector<float> pdf(weight.size());
-  material.pdf(wi.span(), view.span(), pdf.data());
+  const auto channels = static_cast<std::size_t>(material.channels());
+  std::vector<float> pdf(weight.size()), f(weight.size() * channels);
+  material.eval_pdf(wi.span(), view.span(), {f.data(), weight.size()}, pdf.data());
   k = 0;
   for (Cell& cell : cells) {
-    cell.mass = 0;
-    for (std::size_t n = 0; n < nodes; ++n, ++k) cell.mass += weight[k] * static_cast<double>(pdf[k]);
+    cell.mass = cell.f_cos = 0;
+    for (std::size_t n = 0; n < nodes; ++n, ++k) {
+      cell.mass += weight[k] * static_cast<double>(pdf[k]);
+      double sum = 0;
+      for (std::size_t c = k; c < f.size(); c += weight.size()) sum += static_cast<double>(f[c]);
+      cell.f_cos += weight[k] * sum / static_cast<double>(channels) * static_cast<double>(wi.get(k).z);
+    }
   }
 }
 
@@ -60,7 +67,7 @@ std::vector<Cell> root_cells(std::span<const Vec3f> samples) {
   std::vector<Cell> cells;
   constexpr double d_theta = pi / 2 / roots_theta, d_phi = 2 * pi / roots_phi;
   for (int i = 0; i < roots_theta; ++i)
-    for (int j = 0; j < roots_phi; ++j) cells.push_back({i * d_theta, j * d_phi - pi, d_theta, d_phi, 0, {}});
+    for (int j = 0; j < roots_phi; ++j) cells.push_back({i * d_theta, j * d_phi - pi, d_theta, d_phi, 0, 0, {}});
   for (const Vec3f& w : samples) {
     const Vec3d d(w);
     const Angles a{std::atan2(std::hypot(d.x, d.y), d.z), std::atan2(d.y, d.x)};
@@ -75,10 +82,10 @@ std::vector<Cell> root_cells(std::span<const Vec3f> samples) {
 std::array<Cell, 4> split(const Cell& cell) {
   const double d_theta = cell.d_theta / 2, d_phi = cell.d_phi / 2;
   const double theta = cell.theta + d_theta, phi = cell.phi + d_phi;
-  std::array<Cell, 4> parts{{{cell.theta, cell.phi, d_theta, d_phi, 0, {}},
-                             {cell.theta, phi, d_theta, d_phi, 0, {}},
-                             {theta, cell.phi, d_theta, d_phi, 0, {}},
-                             {theta, phi, d_theta, d_phi, 0, {}}}};
+  std::array<Cell, 4> parts{{{cell.theta, cell.phi, d_theta, d_phi, 0, 0, {}},
+                             {cell.theta, phi, d_theta, d_phi, 0, 0, {}},
+                             {theta, cell.phi, d_theta, d_phi, 0, 0, {}},
+                             {theta, phi, d_theta, d_phi, 0, 0, {}}}};
   for (const Angles& a : cell.samples) {
     parts[(a.theta >= theta ? 2U : 0U) + (a.phi >= phi ? 1U : 0U)].samples.push_back(a);
   }
@@ -102,7 +109,7 @@ DensityCells::DensityCells(const Material& material, const Vec3f& wo, std::span<
       double sum = 0;
       for (std::size_t k = 0; k < 4; ++k) sum += parts[4 * i + k].mass;
       // Well below the noise of counting n samples.
-      const double tolerance = 0.1 * std::sqrt(std::max(open[i].mass, sum) / n) + 1e-7;
+      const double tolerance = 0.02 * std::sqrt(std::max(open[i].mass, sum) / n) + 1e-7;
       const bool crowded = static_cast<double>(open[i].samples.size()) > n / 256 && depth < deepest / 2;
       const bool split_again = may_split && (std::abs(sum - open[i].mass) > tolerance || crowded);
       for (std::size_t k = 0; k < 4; ++k) {
@@ -113,6 +120,7 @@ DensityCells::DensityCells(const Material& material, const Vec3f& wo, std::span<
           mass_.push_back(part.mass);
           count_.push_back(static_cast<double>(part.samples.size()));
           integral_ += part.mass;
+          f_cos_ += part.f_cos;
         }
       }
     }

@@ -18,13 +18,15 @@ class DensityCells {
   DensityCells(const Material& material, const Vec3f& wo, std::span<const Vec3f> samples);
 
   double integral() const noexcept { return integral_; }
+  /// Integral of the mean of the channels of f cos theta_i.
+  double f_cos() const noexcept { return f_cos_; }
   /// Integral of the density, and number of samples, of each cell; neighbours stand near each other.
   const std::vector<double>& mass() const noexcept { return mass_; }
   const std::vector<double>& count() const noexcept { return count_; }
 
  private:
   std::vector<double> mass_, count_;
-  double integral_ = 0;
+  double integral_ = 0, f_cos_ = 0;
 };
 
 }  // namespace brdf::cli

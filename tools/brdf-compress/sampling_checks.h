@@ -8,8 +8,9 @@
 
 namespace brdf::cli {
 
-/// For several wo: the integral of pdf, drawn directions against pdf (chi-squared), and pdf and weight of the samples
-/// against pdf and eval.
+/// For wo from the normal to 89.9 degrees, the worst of each: the integral of pdf, drawn directions against pdf
+/// (chi-squared), pdf and weight of the samples against pdf and eval, the mean weight against the quadrature of
+/// f cos theta_i; and the largest weight.
 Checks sampling_checks(const Material& material);
 
 }  // namespace brdf::cli

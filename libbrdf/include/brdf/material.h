@@ -97,12 +97,13 @@ class Material {
   /// cosine-distributed directions, and this is their density.
   float pdf(const Vec3f& wi, const Vec3f& wo) const noexcept;
   float eval_pdf(const Vec3f& wi, const Vec3f& wo, std::span<float> f) const noexcept;
-  /// Draws wi given wo. u in [0,1)^3: (u.y, u.z) are warped, continuously, to the directions above the horizon; u.x
-  /// chooses the component of a material that has retro lobes and is not used otherwise. `weight` = f cos_i / pdf per
-  /// channel. Nothing is rejected: only with wo at or below the horizon pdf is 0, weight 0 and no flag set.
+  /// Draws wi given wo. u in [0,1)^3: (u.y, u.z) are warped, continuously and piecewise invertibly, to the directions above
+  /// the horizon; u.x chooses the component of the mixture that is warped to: one of the two tabulated views around wo and,
+  /// of a material that has them, the retro lobes. pdf is that of the whole mixture. `weight` = f cos_i / pdf per channel.
+  /// Nothing is rejected: only with wo at or below the horizon pdf is 0, weight 0 and no flag set.
   Sample sample(const Vec3f& wo, const Vec3f& u, std::span<float> weight,
                 TransportMode mode = TransportMode::radiance) const noexcept;
-  /// Directional albedo: integral of f cos_i over wi, by deterministic quadrature: the mean of the weights of 4096 samples
+  /// Directional albedo: integral of f cos_i over wi, by deterministic quadrature: the mean of the weights of 9216 samples
   /// (about 1e-3 relative where the material is prepared for sampling; without, narrow lobes are missed).
   void albedo(const Vec3f& wo, std::span<float> a) const noexcept;
 

@@ -30,10 +30,10 @@ HWY_INLINE kernel::CellPosition view_position(V cos_o) {
 
 /// A cell of the table for each pair, and what is found there.
 struct CellBlock {
-  HWY_ALIGN std::int32_t view[block_pairs];  ///< lower one of the two that are interpolated
-  HWY_ALIGN float to_view[block_pairs];
-  HWY_ALIGN std::int32_t row[block_pairs];  ///< the conditional row of the lower view and the lower column
-  HWY_ALIGN float weight[4][block_pairs];   ///< of the rows: column, next column, then both of the next view
+  HWY_ALIGN std::int32_t view[2][block_pairs];  ///< the two whose densities are mixed
+  HWY_ALIGN float to_second[block_pairs];       ///< share of the second
+  HWY_ALIGN std::int32_t row[2][block_pairs];   ///< conditional row of either, at the lower column
+  HWY_ALIGN float to_column[block_pairs];
   HWY_ALIGN std::int32_t cell[block_pairs];
   HWY_ALIGN float node[4 * block_pairs];  ///< integral and density at either edge of the cell
   HWY_ALIGN float edge[2 * block_pairs];
@@ -47,59 +47,47 @@ struct CellBlock {
   }
 };
 
-/// The four rows around (view, v) and their weights.
-HWY_INLINE void place_rows(CellBlock& b, std::size_t at, VI view, VI column, V to_view, V to_column) {
-  const Floats d;
+/// The lower view is the first.
+HWY_INLINE void place_views(CellBlock& b, std::size_t at, const kernel::CellPosition& view) {
   const Ints di;
-  const V one = set(1.0f), below_view = hn::Sub(one, to_view), below = hn::Sub(one, to_column);
-  const VI rows = hn::Mul(view, hn::Set(di, static_cast<std::int32_t>(Table::rows_per_view)));
-  hn::Store(hn::Add(rows, column), di, b.row + at);
-  hn::Store(hn::Mul(below_view, below), d, b.weight[0] + at);
-  hn::Store(hn::Mul(below_view, to_column), d, b.weight[1] + at);
-  hn::Store(hn::Mul(to_view, below), d, b.weight[2] + at);
-  hn::Store(hn::Mul(to_view, to_column), d, b.weight[3] + at);
+  hn::Store(view.index, di, b.view[0] + at);
+  hn::Store(hn::Add(view.index, hn::Set(di, 1)), di, b.view[1] + at);
+  hn::Store(view.fraction, Floats(), b.to_second + at);
 }
 
-/// Rows of one pair that are interpolated: two of the marginal table or four of the conditional one.
+/// The rows around column `column` of both views, which are stored.
+HWY_INLINE void place_rows(CellBlock& b, std::size_t at, VI column, V to_column) {
+  const Ints di;
+  const VI rows = hn::Set(di, static_cast<std::int32_t>(Table::rows_per_view));
+  for (std::size_t k = 0; k < 2; ++k) hn::Store(hn::Add(hn::Mul(hn::Load(di, b.view[k] + at), rows), column), di, b.row[k] + at);
+  hn::Store(to_column, Floats(), b.to_column + at);
+}
+
+/// The row of one view of the marginal table (n = 1), or two neighbours of the conditional one (n = 2), interpolated.
 template <std::size_t n>
 struct RowsOfPair {
   static constexpr std::size_t row_floats = sizeof(DensityRow) / sizeof(float);
   static constexpr std::size_t first_node = offsetof(DensityRow, node) / sizeof(float);
   static constexpr std::size_t quarter_floats = sizeof(QuarterRow) / sizeof(float);
-  static constexpr std::size_t rows_per_view = n == 4 ? Table::rows_per_view : 1;
-  static constexpr std::size_t view_floats = row_floats * rows_per_view;
 
   const float* quarters;
   const float* row;
-  float weight[n];
+  float to_next;
 
-  HWY_INLINE RowsOfPair(const DensityRows& t, std::size_t first, const float (&w)[n])
-      : quarters(t.quarters[first].integral.data()), row(t.rows[first].unused.data()) {
-    for (std::size_t k = 0; k < n; ++k) weight[k] = w[k];
-  }
+  HWY_INLINE RowsOfPair(const DensityRows& t, std::int32_t first, float next)
+      : quarters(t.quarters[static_cast<std::size_t>(first)].integral.data()),
+        row(t.rows[static_cast<std::size_t>(first)].unused.data()),
+        to_next(next) {}
 
-  /// Eight values of each row, weighted; rows `stride` apart.
   HWY_INLINE kernel::EightFloats eight(const float* p, std::size_t stride) const {
-    const auto two = [&](const float* HWY_RESTRICT first, const float* HWY_RESTRICT second, const float* w) HWY_ATTR {
-      return kernel::add_weighted_eight(kernel::weighted_eight(w[0], first), w[1], second);
-    };
-    if constexpr (n == 2) {
-      return two(p, p + stride, weight);
-    } else {  // as two sums: a shorter chain
-      const float* const q = p + stride * rows_per_view;
-      return kernel::add_scaled(two(p, p + stride, weight), 1.0f, two(q, q + stride, weight + 2));
-    }
+    if constexpr (n == 1) return kernel::load_eight(p, 0.0f);
+    return kernel::add_weighted_eight(kernel::weighted_eight(1.0f - to_next, p), to_next, p + stride);
   }
-  HWY_INLINE void store_node(std::size_t cell, float* HWY_RESTRICT out) const {
+  /// Integral and density at either edge of a cell.
+  HWY_INLINE auto node(std::size_t cell) const {
     const float* const p = row + first_node + 2 * cell;
-    if constexpr (n == 2) {
-      kernel::store_four(weight[0] * kernel::load_four(p) + weight[1] * kernel::load_four(p + view_floats), out);
-    } else {
-      const float* const q = p + view_floats;
-      kernel::store_four((weight[0] * kernel::load_four(p) + weight[1] * kernel::load_four(p + row_floats)) +
-                             (weight[2] * kernel::load_four(q) + weight[3] * kernel::load_four(q + row_floats)),
-                         out);
-    }
+    if constexpr (n == 1) return kernel::load_four(p);
+    return (1.0f - to_next) * kernel::load_four(p) + to_next * kernel::load_four(p + row_floats);
   }
   /// The number of inner fourth edges whose integral is not above `target`.
   HWY_INLINE std::size_t quarter(float target) const { return kernel::count_up_to(eight(quarters, quarter_floats), target); }
@@ -109,13 +97,11 @@ struct RowsOfPair {
   }
 };
 
-HWY_INLINE RowsOfPair<2> marginal_rows(const Table& t, const CellBlock& b, std::size_t i) {
-  const float up = b.to_view[i];
-  return {t.marginal, static_cast<std::size_t>(b.view[i]), {1.0f - up, up}};
-}
+HWY_INLINE RowsOfPair<1> marginal_row(const Table& t, const CellBlock& b, std::size_t i) { return {t.marginal, b.view[0][i], 0}; }
 
-HWY_INLINE RowsOfPair<4> conditional_rows(const Table& t, const CellBlock& b, std::size_t i) {
-  return {t.conditional, static_cast<std::size_t>(b.row[i]), {b.weight[0][i], b.weight[1][i], b.weight[2][i], b.weight[3][i]}};
+/// Of view k of the two.
+HWY_INLINE RowsOfPair<2> conditional_rows(const Table& t, const CellBlock& b, std::size_t k, std::size_t i) {
+  return {t.conditional, b.row[k][i], b.to_column[i]};
 }
 
 /// Cells of `size` pairs that hold the integrals in `target`, and what is at their edges. Step by step for all: each step
@@ -125,7 +111,7 @@ HWY_INLINE void search_rows(std::size_t size, const float* HWY_RESTRICT target, 
   for (std::size_t i = 0; i < size; ++i) b.cell[i] = static_cast<std::int32_t>(rows(i).quarter(target[i]));
   for (std::size_t i = 0; i < size; ++i)
     b.cell[i] = static_cast<std::int32_t>(rows(i).cell(static_cast<std::size_t>(b.cell[i]), target[i]));
-  for (std::size_t i = 0; i < size; ++i) rows(i).store_node(static_cast<std::size_t>(b.cell[i]), b.node + 4 * i);
+  for (std::size_t i = 0; i < size; ++i) kernel::store_four(rows(i).node(static_cast<std::size_t>(b.cell[i])), b.node + 4 * i);
 }
 
 HWY_INLINE void read_edge(const Table& t, CellBlock& b, std::size_t i) {
@@ -149,9 +135,8 @@ HWY_INLINE void begin_density(const Table& t, V cos_o, const Point& p, CellBlock
   const kernel::CellPosition view = view_position(cos_o);
   constexpr auto columns = static_cast<float>(Table::columns);
   const kernel::CellPosition column = kernel::cell_position(hn::Mul(p.v, set(columns)), static_cast<int>(Table::columns) - 1);
-  hn::Store(view.index, di, b.view + at);
-  hn::Store(view.fraction, d, b.to_view + at);
-  place_rows(b, at, view.index, column.index, view.fraction, column.fraction);
+  place_views(b, at, view);
+  place_rows(b, at, column.index, column.fraction);
   V cell = hn::Zero(d);
   for (std::size_t i = 1; i < row_cells; ++i)
     cell = hn::Add(cell, hn::IfThenElseZero(hn::Ge(p.height, set(t.edge[i])), set(1.0f)));

@@ -37,12 +37,25 @@ struct DrawBlock {
   HWY_ALIGN float turn[block_pairs], side[block_pairs], valid[block_pairs], v[block_pairs];
   HWY_ALIGN float target[block_pairs];  ///< integral at the point searched for
   HWY_ALIGN float random[block_pairs];  ///< of the second search
+  HWY_ALIGN float choice[block_pairs];  ///< the first number, of which the choice between components took its part
+  HWY_ALIGN float other[4 * block_pairs];  ///< what CellBlock::node is, of the view that was not chosen
 };
 
 HWY_INLINE hn::Mask<Floats> above_horizon(const Directions& wo) {
   const V norm2 = hn::MulAdd(wo.x, wo.x, hn::MulAdd(wo.y, wo.y, hn::Mul(wo.z, wo.z)));
   // as eval::max_norm2 has it for a pair of the same length
   return hn::And(hn::Gt(wo.z, hn::Zero(Floats())), hn::Lt(norm2, set(0.25f * eval::max_norm2)));
+}
+
+/// The density is a mixture of those of two views; the direction is drawn from one of them, which becomes the first.
+HWY_INLINE void choose_view(const kernel::CellPosition& view, V choice, CellBlock& b, std::size_t at) {
+  const Floats d;
+  const Ints di;
+  const auto upper = hn::Lt(choice, view.fraction);
+  const VI one = hn::Set(di, 1), up = hn::IfThenElseZero(hn::RebindMask(di, upper), one);
+  hn::Store(hn::Add(view.index, up), di, b.view[0] + at);
+  hn::Store(hn::Sub(hn::Add(view.index, one), up), di, b.view[1] + at);
+  hn::Store(hn::IfThenElse(upper, hn::Sub(set(1.0f), view.fraction), view.fraction), d, b.to_second + at);
 }
 
 /// Views and random numbers; one vector. The component is chosen already.
@@ -55,9 +68,7 @@ HWY_INLINE void begin_draw(const DirectionSpan& wo, const DirectionSpan& u, std:
   const V turn = choose ? hn::Load(d, b.turn + at) : one;
   const Views w = views_of({hn::Mul(hn::IfThenElseZero(valid, given.x), turn), hn::Mul(hn::IfThenElseZero(valid, given.y), turn),
                             hn::IfThenElse(valid, given.z, one)});
-  const kernel::CellPosition view = view_position(w.wo.z);
-  hn::Store(view.index, Ints(), b.cells.view + at);
-  hn::Store(view.fraction, d, b.cells.to_view + at);
+  choose_view(view_position(w.wo.z), choose ? hn::Load(d, b.choice + at) : into_unit_interval(kernel::load_first(u.x + at, count)), b.cells, at);
   hn::Store(w.wo.x, d, b.x + at);
   hn::Store(w.wo.y, d, b.y + at);
   hn::Store(w.wo.z, d, b.z + at);
@@ -72,7 +83,7 @@ HWY_INLINE void begin_draw(const DirectionSpan& wo, const DirectionSpan& u, std:
   hn::Store(into_unit_interval(kernel::load_first(u.z + at, count)), d, b.random + at);
 }
 
-/// Components by the first random number: b.turn.
+/// Components by the first random number: b.turn, and what is left of that number: b.choice.
 HWY_INLINE void choose_components(const Material::Sampling& s, const DirectionSpan& wo, const DirectionSpan& u, DrawBlock& b) {
   const Floats d;
   const std::size_t lanes = hn::Lanes(d);
@@ -81,11 +92,15 @@ HWY_INLINE void choose_components(const Material::Sampling& s, const DirectionSp
     const Directions given = kernel::load_directions(wo, at, count);
     const kernel::CellPosition view =
         view_position(hn::Max(hn::IfThenElse(above_horizon(given), given.z, set(1.0f)), set(min_view_cosine)));
-    hn::Store(view.index, Ints(), b.cells.view + at);
-    hn::Store(view.fraction, d, b.cells.to_view + at);
-    hn::Store(into_unit_interval(kernel::load_first(u.x + at, count)), d, b.turn + at);
+    place_views(b.cells, at, view);
+    hn::Store(into_unit_interval(kernel::load_first(u.x + at, count)), d, b.choice + at);
   }
-  for (std::size_t i = 0; i < wo.size; ++i) b.turn[i] = b.turn[i] < back_share(s, b.cells, i) ? -1.0f : 1.0f;
+  for (std::size_t i = 0; i < wo.size; ++i) {
+    const float share = back_share(s, b.cells, i), u_x = b.choice[i];
+    const bool back = u_x < share;
+    b.turn[i] = back ? -1.0f : 1.0f;
+    b.choice[i] = back ? u_x / share : (u_x - share) / (1.0f - share);
+  }
 }
 
 /// The first inverse: v of the unit square.
@@ -98,7 +113,7 @@ HWY_INLINE void invert_marginal(DrawBlock& b, std::size_t at) {
   const V to_column = inverse_integral(left, right, rise);
   const VI cell = hn::Load(Ints(), b.cells.cell + at);
   const V column = hn::ConvertTo(d, cell);
-  place_rows(b.cells, at, hn::Load(Ints(), b.cells.view + at), cell, hn::Load(d, b.cells.to_view + at), to_column);
+  place_rows(b.cells, at, cell, to_column);
   hn::Store(hn::Mul(hn::Add(column, to_column), set(1.0f / columns)), d, b.v + at);
   hn::Store(hn::Mul(hn::Load(d, b.random + at), between(left, right, to_column)), d, b.target + at);
 }
@@ -110,6 +125,8 @@ HWY_INLINE void finish_draw(const DrawBlock& b, std::size_t at, Drawn& out) {
   V before, left, after, right, lower, upper;
   hn::LoadInterleaved4(d, b.cells.node + 4 * at, before, left, after, right);
   hn::LoadInterleaved2(d, b.cells.edge + 2 * at, lower, upper);
+  V before_other, left_other, after_other, right_other;
+  hn::LoadInterleaved4(d, b.other + 4 * at, before_other, left_other, after_other, right_other);
   const V width = hn::Sub(upper, lower);
   const V in_cell = inverse_integral(hn::Mul(left, width), hn::Mul(right, width), hn::Sub(hn::Load(d, b.target + at), before));
   const V height = hn::Min(hn::MulAdd(in_cell, width, lower), one), v = hn::Load(d, b.v + at);
@@ -118,7 +135,8 @@ HWY_INLINE void finish_draw(const DrawBlock& b, std::size_t at, Drawn& out) {
                 hn::Load(d, b.s + at), hn::Load(d, b.e_x + at), hn::Load(d, b.e_y + at)};
   const Mapped m = mapped_direction(w, height, {hn::IfThenElse(near, v, hn::Sub(one, v)), near}, hn::Load(d, b.side + at));
   const auto valid = hn::Gt(hn::Load(d, b.valid + at), hn::Zero(d));
-  out.store(at, m.wi, hn::IfThenElseZero(valid, hn::Mul(m.density, between(left, right, in_cell))));
+  const V density = between(between(left, right, in_cell), between(left_other, right_other, in_cell), hn::Load(d, b.cells.to_second + at));
+  out.store(at, m.wi, hn::IfThenElseZero(valid, hn::Mul(m.density, density)));
 }
 
 HWY_INLINE void draw_cosine(const DirectionSpan& wo, const DirectionSpan& u, Drawn& out) {
@@ -140,14 +158,19 @@ HWY_INLINE void draw_block(const Material::Sampling* s, const DirectionSpan& wo,
   if (choose) {
     choose_components(*s, wo, u, b);
     std::fill(b.turn + size, b.turn + vectors, 1.0f);
+    std::fill(b.choice + size, b.choice + vectors, 0.0f);
   }
   for (std::size_t at = 0; at < size; at += lanes) begin_draw(wo, u, at, HWY_MIN(lanes, size - at), choose, b);
   b.cells.pad(size, vectors);
+  std::fill(b.other + 4 * size, b.other + 4 * vectors, 0.0f);
   const auto invert = [&](const auto& table) HWY_ATTR __attribute__((always_inline)) {
-    search_rows(size, b.target, b.cells, [&](std::size_t i) HWY_ATTR { return marginal_rows(table(i), b.cells, i); });
+    search_rows(size, b.target, b.cells, [&](std::size_t i) HWY_ATTR { return marginal_row(table(i), b.cells, i); });
     for (std::size_t at = 0; at < size; at += lanes) invert_marginal(b, at);
-    search_rows(size, b.target, b.cells, [&](std::size_t i) HWY_ATTR { return conditional_rows(table(i), b.cells, i); });
-    for (std::size_t i = 0; i < size; ++i) read_edge(table(i), b.cells, i);
+    search_rows(size, b.target, b.cells, [&](std::size_t i) HWY_ATTR { return conditional_rows(table(i), b.cells, 0, i); });
+    for (std::size_t i = 0; i < size; ++i) {
+      kernel::store_four(conditional_rows(table(i), b.cells, 1, i).node(static_cast<std::size_t>(b.cells.cell[i])), b.other + 4 * i);
+      read_edge(table(i), b.cells, i);
+    }
   };
   if (choose)
     invert([&](std::size_t i) -> const Table& { return b.turn[i] < 0 ? *s->back : s->front; });

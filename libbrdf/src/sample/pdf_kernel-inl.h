@@ -51,7 +51,10 @@ HWY_INLINE void component_pdf(const Table& t, float turn, const DirectionSpan& w
   }
   b.cells.pad(size, vectors);
   for (std::size_t i = 0; i < size; ++i) {
-    conditional_rows(t, b.cells, i).store_node(static_cast<std::size_t>(b.cells.cell[i]), b.cells.node + 4 * i);
+    const auto cell = static_cast<std::size_t>(b.cells.cell[i]);
+    const float up = b.cells.to_second[i];
+    kernel::store_four((1.0f - up) * conditional_rows(t, b.cells, 0, i).node(cell) + up * conditional_rows(t, b.cells, 1, i).node(cell),
+                       b.cells.node + 4 * i);
     read_edge(t, b.cells, i);
   }
   for (std::size_t at = 0; at < size; at += lanes) {
@@ -62,8 +65,8 @@ HWY_INLINE void component_pdf(const Table& t, float turn, const DirectionSpan& w
 
 /// Share of the second component for pair i, whose view is placed.
 HWY_INLINE float back_share(const Material::Sampling& s, const CellBlock& b, std::size_t i) {
-  const float* const share = s.back_share.data() + b.view[i];
-  return share[0] + b.to_view[i] * (share[1] - share[0]);
+  const float first = s.back_share[static_cast<std::size_t>(b.view[0][i])], second = s.back_share[static_cast<std::size_t>(b.view[1][i])];
+  return first + b.to_second[i] * (second - first);
 }
 
 /// Density of the samples at at most block_pairs pairs.

@@ -41,13 +41,10 @@ struct SingleView {
     to_view = std::min(inside - static_cast<float>(view), 1.0f);
   }
 
-  HWY_INLINE RowsOfPair<2> marginal(const Table& t) const {
-    return {t.marginal, view, {1 - to_view, to_view}};
-  }
-  HWY_INLINE RowsOfPair<4> conditional(const Table& t, std::size_t column, float to_column) const {
-    const float below = 1 - to_view;
-    return {t.conditional, view * Table::rows_per_view + column,
-            {below * (1 - to_column), below * to_column, to_view * (1 - to_column), to_view * to_column}};
+  /// Of the lower (0) or the upper (1) view.
+  HWY_INLINE RowsOfPair<1> marginal(const Table& t, std::size_t upper) const { return {t.marginal, static_cast<std::int32_t>(view + upper), 0}; }
+  HWY_INLINE RowsOfPair<2> conditional(const Table& t, std::size_t upper, std::size_t column, float to_column) const {
+    return {t.conditional, static_cast<std::int32_t>((view + upper) * Table::rows_per_view + column), to_column};
   }
 };
 
@@ -62,20 +59,25 @@ HWY_INLINE std::size_t search(const RowsOfPair<n>& rows, float target) {
   return rows.cell(rows.quarter(target), target);
 }
 
-/// wi of (u, v) in [0, 1), and its density.
-HWY_INLINE float draw_single(const Table& t, const Vec3f& wo, float u, float v, Vec3f& wi) {
+/// Density at a place of a cell, from what is at its edges.
+HWY_INLINE float density_in_cell(const float (&node)[4], float in_cell) { return (1 - in_cell) * node[1] + in_cell * node[3]; }
+
+/// wi of (u, v) in [0, 1), from the view that `choice` takes, and the density of both views together.
+HWY_INLINE float draw_single(const Table& t, const Vec3f& wo, float choice, float u, float v, Vec3f& wi) {
   const SingleView w(wo);
+  const std::size_t chosen = choice < w.to_view ? 1 : 0;
   const float sided = u + u - 1, first = std::fabs(sided);
-  float node[4];  // integral and density at either edge
-  const RowsOfPair<2> marginal = w.marginal(t);
+  float node[4], other[4];  // integral and density at either edge
+  const RowsOfPair<1> marginal = w.marginal(t, chosen);
   const std::size_t column = search(marginal, first);
-  marginal.store_node(column, node);
+  kernel::store_four(marginal.node(column), node);
   constexpr auto columns = static_cast<float>(Table::columns);
   const float to_column = inverse_integral(node[1], node[3], (first - node[0]) * columns);
   const float target = v * ((1 - to_column) * node[1] + to_column * node[3]);
-  const RowsOfPair<4> conditional = w.conditional(t, column, to_column);
+  const RowsOfPair<2> conditional = w.conditional(t, chosen, column, to_column);
   const std::size_t cell = search(conditional, target);
-  conditional.store_node(cell, node);
+  kernel::store_four(conditional.node(cell), node);
+  kernel::store_four(w.conditional(t, 1 - chosen, column, to_column).node(cell), other);
   const float width = t.edge[cell + 1] - t.edge[cell];
   const float in_cell = inverse_integral(node[1] * width, node[3] * width, target - node[0]);
   Map::Half h = w.map.half_vector(std::min(t.edge[cell] + in_cell * width, 1.0f),
@@ -84,7 +86,8 @@ HWY_INLINE float draw_single(const Table& t, const Vec3f& wo, float u, float v, 
   const float twice = h.wo_h + h.wo_h;
   wi = {twice * (h.x * w.e_x - h.y * w.e_y) - wo.x, twice * (h.x * w.e_y + h.y * w.e_x) - wo.y,
         std::max(twice * h.z - w.map.c, min_drawn_cosine)};
-  return ((1 - in_cell) * node[1] + in_cell * node[3]) / (2 * h.area);
+  const float to_other = chosen == 1 ? 1 - w.to_view : w.to_view;
+  return ((1 - to_other) * density_in_cell(node, in_cell) + to_other * density_in_cell(other, in_cell)) / (2 * h.area);
 }
 
 /// Density of draw_single at a pair above the horizon.
@@ -98,9 +101,37 @@ HWY_INLINE float pdf_single(const Table& t, const Vec3f& wi, const Vec3f& wo) {
   for (std::size_t first = 1; first < row_cells; first += 8)
     cell += kernel::count_up_to(kernel::load_eight(t.edge.data() + first, 0.0f), std::min(p.height, below_one));
   float node[4];
-  w.conditional(t, column, std::min(at - static_cast<float>(column), 1.0f)).store_node(cell, node);
+  const float to_column = std::min(at - static_cast<float>(column), 1.0f);
+  kernel::store_four((1 - w.to_view) * w.conditional(t, 0, column, to_column).node(cell) + w.to_view * w.conditional(t, 1, column, to_column).node(cell), node);
   const float in_cell = std::min((p.height - t.edge[cell]) / (t.edge[cell + 1] - t.edge[cell]), 1.0f);
-  return ((1 - in_cell) * node[1] + in_cell * node[3]) / (2 * p.area);
+  return density_in_cell(node, in_cell) / (2 * p.area);
+}
+
+/// Share of the second component for one view.
+HWY_INLINE float back_share(const Material::Sampling& s, const Vec3f& wo) {
+  const SingleView w(wo);
+  return s.back_share[w.view] + w.to_view * (s.back_share[w.view + 1] - s.back_share[w.view]);
+}
+
+/// What retro lobes take for the view.
+HWY_INLINE Vec3f turned(const Vec3f& wo) { return {-wo.x, -wo.y, wo.z}; }
+
+HWY_INLINE float pdf_of_all(const Material::Sampling& s, const Vec3f& wi, const Vec3f& wo) {
+  const float front = pdf_single(s.front, wi, wo);
+  if (!s.back) return front;
+  const float share = back_share(s, wo);
+  return (1 - share) * front + share * pdf_single(*s.back, wi, turned(wo));
+}
+
+/// u in [0, 1)
+HWY_INLINE float draw_of_all(const Material::Sampling& s, const Vec3f& wo, const Vec3f& u, Vec3f& wi) {
+  if (!s.back) return draw_single(s.front, wo, u.x, u.y, u.z, wi);
+  const float share = back_share(s, wo);
+  if (u.x < share)
+    draw_single(*s.back, turned(wo), u.x / share, u.y, u.z, wi);
+  else
+    draw_single(s.front, wo, (u.x - share) / (1 - share), u.y, u.z, wi);
+  return pdf_of_all(s, wi, wo);
 }
 
 }  // namespace brdf::sample::HWY_NAMESPACE
