@@ -56,6 +56,7 @@ std::vector<std::string> summary_lines(const CompressReport& r) {
   // measured files are rarely symmetric: what that meant is said, unless nothing had to be decided
   if (s.reciprocity_asymmetry > 0 || r.options.reciprocity != SymmetryMode::automatic) lines.push_back(s.reciprocity);
   if (s.mirror_asymmetry > 0 || r.options.mirror != SymmetryMode::automatic) lines.push_back(s.mirror);
+  if (s.largest_albedo > 1 || r.options.energy != EnergyMode::report) lines.push_back(s.energy);
   lines.push_back(preset_name(r.options.effort) + ", " + fixed(seconds(s), 2) + " s; " + s.fit.stop_reason);
   return lines;
 }
@@ -96,6 +97,10 @@ Json json_row(const CompressReport& r) {
   row["reciprocity_asymmetry"] = s.reciprocity_asymmetry;
   row["mirror"] = s.mirror;
   row["mirror_asymmetry"] = s.mirror_asymmetry;
+  row["energy"] = s.energy;
+  row["largest_albedo"] = s.largest_albedo;
+  row["source_albedo"] = s.source_albedo;
+  row["energy_scale"] = s.energy_scale;
   row["stop_reason"] = s.fit.stop_reason;
   row["lobes"] = Json::array();
   for (const LobeReason& lobe : s.fit.lobes) {

@@ -2,6 +2,7 @@
 #include "info_report.h"
 
 #include "compressed_file.h"
+#include "material_checks.h"
 
 #include <array>
 #include <cstdio>
@@ -136,6 +137,7 @@ Json compressed_info(const MaterialSource& source) {
   row["lobes"] = lobe_list(material.lobes());
   for (const EvalLevel level : {EvalLevel::fast, EvalLevel::balanced, EvalLevel::exact}) {
     row["resident_bytes"][to_string(level)] = material.prepare(level, false).resident_bytes();
+    row["largest_albedo"][to_string(level)] = largest_albedo(material.prepare(level, true)).value;
   }
   return row;
 }

@@ -95,6 +95,9 @@ std::string measured_text(const Json& row) {
 }
 
 std::string compressed_text(const Json& row) {
+  std::string albedo;
+  for (const auto& [level, value] : row["largest_albedo"].items())
+    albedo += (albedo.empty() ? "" : ", ") + level + " " + significant(value, 4) + (value.get<double>() > 1 ? " (more than it receives)" : "");
   std::string resident;
   for (const auto& [level, bytes] : row["resident_bytes"].items()) {
     resident += (resident.empty() ? "" : ", ") + level + " " + std::to_string(bytes.get<std::uint64_t>());
@@ -114,6 +117,7 @@ std::string compressed_text(const Json& row) {
                                 .add("channels", channels(row))
                                 .add("reciprocal", row["reciprocal"].get<bool>() ? "exactly" : "no")
                                 .add("mirror symmetric", row["mirror_symmetric"].get<bool>() ? "yes" : "no")
+                                .add("largest albedo", albedo)
                                 .add("resident bytes", resident)
                                 .text();
   return facts + '\n' + lobe_table(row["lobes"]) + '\n' + refinement_table(row["refinements"]);

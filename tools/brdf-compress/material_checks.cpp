@@ -96,21 +96,26 @@ Checks value_checks(const Material& material) {
   return checks;
 }
 
-Check albedo_check(const Material& material) {
+AlbedoAt largest_albedo(const Material& material) {
   constexpr int angles = 18;
-  constexpr double most = 1.5;
   std::vector<float> a(static_cast<std::size_t>(material.channels()));
-  Check check{"largest albedo", true, 0, "finite, at most 1.5", ""};
+  AlbedoAt largest;
   for (int k = 0; k < angles; ++k) {
     const double theta = k * 5 * std::numbers::pi / 180;
     material.albedo(Vec3f(Vec3d(std::sin(theta), 0, std::cos(theta))), a);
     for (const float v : a) {
-      check.ok = check.ok && std::isfinite(v) && static_cast<double>(v) <= most;
-      if (static_cast<double>(v) <= check.value) continue;
-      check.value = static_cast<double>(v);
-      check.note = std::string(at_level(material)) + ", theta_o " + std::to_string(k * 5) + " degrees";
+      largest.finite = largest.finite && std::isfinite(v);
+      if (static_cast<double>(v) > largest.value) largest = {static_cast<double>(v), k * 5, largest.finite};
     }
   }
+  return largest;
+}
+
+Check albedo_check(const Material& material) {
+  constexpr double most = 1.5;
+  const AlbedoAt largest = largest_albedo(material);
+  Check check{"largest albedo", largest.finite && largest.value <= most, largest.value, "finite, at most 1.5",
+              std::string(at_level(material)) + ", theta_o " + std::to_string(largest.theta_o) + " degrees"};
   if (check.value > 1) check.note += ", more than it receives";
   return check;
 }

@@ -23,4 +23,13 @@ Checks value_checks(const Material& material);
 /// measurement explains fails.
 Check albedo_check(const Material& material);
 
+/// The largest directional albedo of any channel, for wo from the normal to 85 degrees in steps of 5.
+struct AlbedoAt {
+  double value = 0;
+  int theta_o = 0;  ///< degrees
+  bool finite = true;
+};
+
+AlbedoAt largest_albedo(const Material& material);
+
 }  // namespace brdf::cli

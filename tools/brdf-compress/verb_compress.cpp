@@ -119,6 +119,11 @@ Verb add_compress(CLI::App& program) {
   add_symmetry(*verb, "--reciprocity", o->encode.reciprocity,
                "Exchange of the directions: as the data say, kept or made exact");
   add_symmetry(*verb, "--mirror", o->encode.mirror, "Mirror symmetry: as the data say, kept or made exact");
+  verb->add_option_function<std::string>(
+          "--energy", [o](const std::string& word) { o->encode.energy = word == "clamp" ? EnergyMode::clamp : EnergyMode::report; },
+          "More light than arrives: say so, or scale the file down until no albedo exceeds max(1, the measurement's)")
+      ->check(CLI::IsMember({"report", "clamp"}))
+      ->type_name("report|clamp");
   add_position(*verb, o->position);
   verb->add_flag("--provenance", o->encode.store_provenance, "Store name, format, licence and hash of the source");
   add_threads(*verb, o->threads);

@@ -20,6 +20,10 @@ namespace brdf {
 
 enum class SymmetryMode : std::uint8_t { automatic, keep, enforce };
 
+/// report: say how much light comes back. clamp: scale the file down where that is more than arrives, and more than the
+/// measurement has: no directional albedo exceeds max(1, the measurement's largest) by more than 0.005.
+enum class EnergyMode : std::uint8_t { report, clamp };
+
 /// A named point of the effort scale. Effort is encode time only.
 struct Preset {
   std::string_view name;
@@ -40,6 +44,7 @@ struct EncodeOptions {
   EvalLevel level = EvalLevel::balanced;            ///< at which errors are stated
   SymmetryMode reciprocity = SymmetryMode::automatic;
   SymmetryMode mirror = SymmetryMode::automatic;
+  EnergyMode energy = EnergyMode::report;
   int threads = 1;                                  ///< bytes do not depend on it
   bool store_provenance = false;                    ///< adds an optional chunk
   bool is_valid(std::string* why = nullptr) const;
@@ -53,6 +58,9 @@ struct EncodeSummary {
   bool reciprocal = false;
   double reciprocity_asymmetry = 0, mirror_asymmetry = 0;  ///< of the measurement: log_mae against its symmetric average
   std::string reciprocity, mirror;     ///< what became of each, one sentence
+  double largest_albedo = 0, source_albedo = 0;  ///< of any channel at any level, of the measurement; wo to 85 degrees
+  double energy_scale = 1;             ///< below 1: what EnergyMode::clamp multiplied f by
+  std::string energy;                  ///< one sentence
   std::vector<RecordedError> errors;   ///< of the finished file
   double seconds_fit = 0, seconds_residual = 0, seconds_verify = 0;
   std::string brief() const;

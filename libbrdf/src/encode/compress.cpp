@@ -6,6 +6,7 @@
 #include "encode/basis_choice.h"
 #include "encode/candidate.h"
 #include "encode/effort.h"
+#include "encode/energy.h"
 #include "encode/error_search.h"
 #include "encode/file_errors.h"
 #include "encode/size_search.h"
@@ -202,7 +203,15 @@ EncodeResult compress(const Measurement& m, const EncodeOptions& options, const 
 
   stages.at("verify", 0.85);
   start = Clock::now();
-  encode::record_errors(best, verification, options.level, worth_of(options));
+  const auto finish = [&](Encoded& e) { encode::record_errors(e, verification, options.level, worth_of(options)); };
+  finish(best);
+  summary.source_albedo = encode::largest_albedo(m, Material::decode(best.bytes));
+  if (options.energy == EnergyMode::clamp)
+    summary.energy_scale = encode::clamp_energy(best, std::max(1.0, summary.source_albedo) + encode::energy_tolerance,
+                                                options.target_size.value_or(UINT64_MAX), finish);
+  const encode::LargestAlbedo albedo = encode::largest_albedo(best.bytes);
+  summary.largest_albedo = albedo.value;
+  summary.energy = encode::energy_sentence(options.energy, albedo, summary.source_albedo, summary.energy_scale);
   summary.seconds_verify = seconds_since(start);
 
   count_bytes(best.bytes, summary);
