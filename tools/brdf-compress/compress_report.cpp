@@ -46,7 +46,8 @@ std::vector<std::string> summary_lines(const CompressReport& r) {
                   significant(ratio(r, static_cast<double>(r.measurement.provenance.file_bytes)), 4) +
                   " times smaller than the file; lobes " + std::to_string(s.lobe_bytes) + ", residual " +
                   std::to_string(s.residual_bytes) + " in " + std::to_string(s.refinements) +
-                  " refinements, overhead " + std::to_string(s.overhead_bytes));
+                  " refinements, overhead " + std::to_string(s.overhead_bytes) +
+                  (s.cdf_bytes > 0 ? ", sampling tables " + std::to_string(s.cdf_bytes) : std::string()));
   std::string errors = "errors:";
   for (const RecordedError& e : final_errors(s)) {
     errors += std::string(errors.back() == ':' ? " " : "; ") + to_string(e.level) + " log_mae " +
@@ -90,6 +91,7 @@ Json json_row(const CompressReport& r) {
   row["lobe_bytes"] = s.lobe_bytes;
   row["residual_bytes"] = s.residual_bytes;
   row["overhead_bytes"] = s.overhead_bytes;
+  row["cdf_bytes"] = s.cdf_bytes;
   row["refinements"] = s.refinements;
   row["coefficients"] = s.coefficients;
   row["reciprocal"] = s.reciprocal;

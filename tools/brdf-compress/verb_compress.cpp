@@ -126,6 +126,7 @@ Verb add_compress(CLI::App& program) {
       ->type_name("report|clamp");
   add_position(*verb, o->position);
   verb->add_flag("--provenance", o->encode.store_provenance, "Store name, format, licence and hash of the source");
+  verb->add_flag("--store-cdf", o->encode.store_cdf, "Store the sampling tables of --eval: some kilobytes, and decoding need not build them");
   add_threads(*verb, o->threads);
   add_reporting(*verb, o->reporting);
   verb->footer(

@@ -47,13 +47,16 @@ struct EncodeOptions {
   EnergyMode energy = EnergyMode::report;
   int threads = 1;                                  ///< bytes do not depend on it
   bool store_provenance = false;                    ///< adds an optional chunk
+  /// Adds an optional chunk of some kilobytes with the sampling tables of `level`: decoding reads instead of building them.
+  bool store_cdf = false;
   bool is_valid(std::string* why = nullptr) const;
 };
 
 struct EncodeSummary {
   FitSummary fit;
-  std::uint64_t bytes = 0;           ///< of the file: the three below and, if asked for, provenance
+  std::uint64_t bytes = 0;           ///< of the file: the four below and, if asked for, provenance
   std::uint64_t lobe_bytes = 0, residual_bytes = 0, overhead_bytes = 0;  ///< overhead: header, directory, checksums
+  std::uint64_t cdf_bytes = 0;         ///< of the sampling tables
   int lobes = 0, refinements = 0, coefficients = 0;                      ///< coefficients that are not 0
   bool reciprocal = false;
   double reciprocity_asymmetry = 0, mirror_asymmetry = 0;  ///< of the measurement: log_mae against its symmetric average

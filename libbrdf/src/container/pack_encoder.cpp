@@ -83,6 +83,7 @@ std::vector<std::byte> pack(const Content& content) {
       before = &code.layers[i];
     }
   }
+  if (!content.sampling.empty()) add(static_cast<std::uint8_t>(ChunkType::sampling), content.sampling);
   if (content.provenance) add(static_cast<std::uint8_t>(ChunkType::provenance), provenance_payload(content));
 
   Component component = content.component;

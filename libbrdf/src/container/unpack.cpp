@@ -46,6 +46,7 @@ std::string kind_name(std::uint8_t code) {
     case ChunkType::residual: return "residual";
     case ChunkType::refinement: return "refinement";
     case ChunkType::provenance: return "provenance";
+    case ChunkType::sampling: return "sampling";
   }
   return "type " + std::to_string(code);
 }
@@ -62,6 +63,7 @@ class ChunkReader {
       case ChunkType::residual: return residual(payload);
       case ChunkType::refinement: return refinement(payload);
       case ChunkType::provenance: return read_provenance(payload, out_.content);
+      case ChunkType::sampling: out_.content.sampling.assign(payload.begin(), payload.end()); return;  // decoded where it is needed
     }
     if ((code & optional_bit) == 0)
       throw Error(ErrorCode::unsupported, "chunk: critical " + kind_name(code) + " is not known to this version");

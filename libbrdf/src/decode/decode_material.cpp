@@ -1,14 +1,18 @@
 // SPDX-License-Identifier: Apache-2.0
 // Bytes or lobes to a Material, and a Material to another evaluation level.
 #include "container/content.h"
+#include "container/density_codes.h"
 #include "decode/resample_slices.h"
+#include "decode/sampling_tables.h"
 #include "eval/material_impl.h"
 #include "residual/reconstruct.h"
 #include "sample/build_density.h"
+#include "sample/stored_density.h"
 
 #include <brdf/error.h>
 #include <brdf/material.h>
 
+#include <cmath>
 #include <memory>
 #include <string>
 #include <utility>
@@ -20,6 +24,7 @@ namespace {
 struct Source {
   residual::Coefficients coefficients;
   DecodeLimits limits;
+  std::vector<std::byte> sampling;  ///< stored tables, not decoded yet
 };
 
 eval::Residual residual_for(const Source& source, const LobeSet& lobes, EvalLevel level) {
@@ -35,14 +40,36 @@ eval::Residual residual_for(const Source& source, const LobeSet& lobes, EvalLeve
   return decode::resample_slices(source.coefficients, lobes, size);
 }
 
+/// What the file says, if that is of this level; null otherwise.
+std::shared_ptr<const Material::Sampling> stored_sampling(const Material::Impl& impl) {
+  const auto* source = static_cast<const Source*>(impl.source.get());
+  if (source == nullptr || source->sampling.empty()) return nullptr;
+  static_assert(container::density_views == sample::ComponentTable::views && container::density_rows == sample::ComponentTable::rows_per_view &&
+                container::density_heights == sample::row_cells + 1);
+  const container::DensityCodes codes = container::read_density(source->sampling);
+  if (codes.level != impl.level) return nullptr;
+  sample::NodeDensities nodes;
+  for (const auto& component : codes.components) {
+    std::vector<double>& density = nodes.components.emplace_back();
+    for (const std::int16_t code : component) density.push_back(std::exp2(code / container::density_steps));
+  }
+  for (std::size_t k = 0; k < container::density_views; ++k) nodes.second[k] = codes.second[k] / 255.0;
+  auto tables = sample::density_from_nodes(impl.lobes, nodes);
+  if (!tables) throw Error(ErrorCode::malformed, "sampling chunk: its components are not those of the lobes");
+  return tables;
+}
+
+std::shared_ptr<const Material::Sampling> sampling_of(const Material::Impl& impl) {
+  auto tables = stored_sampling(impl);
+  return tables ? tables : sample::build_density(impl.lobes, impl.tables, impl.info.mirror_symmetric);
+}
+
 Material with_sampling(std::shared_ptr<const Material::Impl> impl, bool sampling) {
-  auto tables = sampling ? sample::build_density(impl->lobes, impl->tables, impl->info.mirror_symmetric) : nullptr;
+  auto tables = sampling ? sampling_of(*impl) : nullptr;
   return Material(std::move(impl), std::move(tables));
 }
 
-}  // namespace
-
-Material Material::decode(std::span<const std::byte> bytes, const DecodeOptions& options) {
+std::shared_ptr<const Material::Impl> decode_impl(std::span<const std::byte> bytes, const DecodeOptions& options) {
   container::Unpacked file = container::unpack(bytes, options.limits, options.allow_prefix);
   container::Content& content = file.content;
   MaterialInfo info;
@@ -61,10 +88,21 @@ Material Material::decode(std::span<const std::byte> bytes, const DecodeOptions&
   source->coefficients = residual::dequantise(content.residual, content.component.transform, content.residual.layers.size());
   source->coefficients.channels = info.channels.count;
   source->limits = options.limits;
+  source->sampling = std::move(content.sampling);
   eval::Residual residual = residual_for(*source, content.lobes, options.level);
   auto impl = eval::make_impl(std::move(info), std::move(content.lobes), std::move(residual), options.level);
   impl->source = std::move(source);
-  return with_sampling(std::move(impl), options.sampling);
+  return impl;
+}
+
+}  // namespace
+
+Material Material::decode(std::span<const std::byte> bytes, const DecodeOptions& options) {
+  return with_sampling(decode_impl(bytes, options), options.sampling);
+}
+
+std::shared_ptr<const Material::Sampling> decode::sampling_tables(std::span<const std::byte> bytes, const DecodeOptions& options) {
+  return sampling_of(*decode_impl(bytes, options));
 }
 
 std::vector<std::uint64_t> refinement_boundaries(std::span<const std::byte> bytes, const DecodeLimits& limits) {

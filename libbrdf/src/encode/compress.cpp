@@ -10,6 +10,7 @@
 #include "encode/error_search.h"
 #include "encode/file_errors.h"
 #include "encode/size_search.h"
+#include "encode/stored_cdf.h"
 #include "encode/verification.h"
 
 #include <brdf/encode.h>
@@ -77,6 +78,7 @@ void count_bytes(std::span<const std::byte> bytes, EncodeSummary& summary) {
       case container::ChunkType::lobes: summary.lobe_bytes += e.length; break;
       case container::ChunkType::residual:
       case container::ChunkType::refinement: summary.residual_bytes += e.length; break;
+      case container::ChunkType::sampling: summary.cdf_bytes += e.length; break;
       case container::ChunkType::provenance: break;
     }
   }
@@ -105,7 +107,9 @@ std::string EncodeSummary::brief() const {
   return text;
 }
 
-EncodeResult compress(const Measurement& m, const EncodeOptions& options, const Progress& progress) {
+namespace {
+
+EncodeResult compress_without_cdf(const Measurement& m, const EncodeOptions& options, const Progress& progress) {
   std::string why;
   if (!options.is_valid(&why)) throw Error(ErrorCode::invalid_argument, "compress: " + why);
   const Stages stages(progress);
@@ -230,6 +234,32 @@ EncodeResult compress(const Measurement& m, const EncodeOptions& options, const 
   result.bytes = std::move(best.bytes);
   stages.at("done", 1.0);
   return result;
+}
+
+}  // namespace
+
+EncodeResult compress(const Measurement& m, const EncodeOptions& options, const Progress& progress) {
+  if (!options.store_cdf) return compress_without_cdf(m, options, progress);
+  constexpr int most_attempts = 4;
+  EncodeOptions rest = options;
+  for (int attempt = 0; attempt < most_attempts; ++attempt) {
+    EncodeResult result = compress_without_cdf(m, rest, progress);
+    const std::uint64_t without = result.bytes.size();
+    result.bytes = encode::with_stored_cdf(result.bytes, options.level);
+    const std::uint64_t whole = result.bytes.size();
+    if (!options.target_size || whole <= *options.target_size) {
+      result.summary.lobe_bytes = result.summary.residual_bytes = 0;
+      count_bytes(result.bytes, result.summary);
+      return result;
+    }
+    // the tables of a smaller file are about as large
+    const std::uint64_t tables = whole - without;
+    if (tables + few_bytes / 2 > *options.target_size)
+      throw Error(ErrorCode::target_not_met, "compress: the sampling tables of this material need " + std::to_string(tables) + " bytes, which leaves too little of " +
+                                                 std::to_string(*options.target_size));
+    rest.target_size = *options.target_size - tables - static_cast<std::uint64_t>(attempt) * tables / 50;
+  }
+  throw Error(ErrorCode::target_not_met, "compress: no file of " + std::to_string(*options.target_size) + " bytes was found that holds the sampling tables");
 }
 
 }  // namespace brdf

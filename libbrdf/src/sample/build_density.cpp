@@ -2,6 +2,7 @@
 #include "sample/build_density.h"
 
 #include "sample/density_nodes.h"
+#include "sample/stored_density.h"
 
 #include <algorithm>
 #include <cmath>
@@ -60,11 +61,7 @@ double fill_row(std::span<const double> density, std::span<const double> width, 
   return sum;
 }
 
-/// Tables of all views; returns the integral of f for each.
-std::array<double, Table::views> tabulate(Integrand f, Table& t) {
-  DensityNodes nodes(t);
-  nodes.tabulate(f);
-  nodes.cover(f, most_between_nodes);
+void fill_table(const DensityNodes& nodes, Table& t) {
   const auto resize = [](DensityRows& r, std::size_t rows) {
     r.rows.resize(rows);
     r.quarters.resize(rows);
@@ -81,6 +78,14 @@ std::array<double, Table::views> tabulate(Integrand f, Table& t) {
       totals[j] = fill_row(nodes.view(k).subspan(j * DensityNodes::edges, DensityNodes::edges), width, t.conditional, k * Table::rows_per_view + j);
     fill_row(totals, column_width, t.marginal, k);
   }
+}
+
+/// Tables of all views; returns the integral of f for each.
+std::array<double, Table::views> tabulate(Integrand f, Table& t) {
+  DensityNodes nodes(t);
+  nodes.tabulate(f);
+  nodes.cover(f, most_between_nodes);
+  fill_table(nodes, t);
   return nodes.integrals();
 }
 
@@ -113,6 +118,37 @@ std::shared_ptr<const Material::Sampling> build_density(const LobeSet& lobes, co
     const double sum = front_integrals[k] + back_integrals[k], share = sum > 0 ? back_integrals[k] / sum : 0.5;
     sampling->back_share[k] = static_cast<float>(std::clamp(std::isfinite(share) ? share : 0.5, least_share, 1 - least_share));
   }
+  return sampling;
+}
+
+NodeDensities node_densities(const Material::Sampling& tables) {
+  NodeDensities nodes;
+  const auto add = [&nodes](const Table& t) {
+    std::vector<double>& density = nodes.components.emplace_back();
+    for (const DensityRow& row : t.conditional.rows)
+      for (std::size_t i = 0; i <= row_cells; ++i) density.push_back(static_cast<double>(row.node[2 * i + 1]));
+  };
+  add(tables.front);
+  if (tables.back) add(*tables.back);
+  for (std::size_t k = 0; k < Table::views; ++k) nodes.second[k] = static_cast<double>(tables.back_share[k]);
+  return nodes;
+}
+
+std::shared_ptr<const Material::Sampling> density_from_nodes(const LobeSet& lobes, const NodeDensities& nodes) {
+  const bool retro = std::any_of(lobes.lobes.begin(), lobes.lobes.end(), [](const Lobe& l) { return l.kind == LobeKind::retro_ggx; });
+  if (nodes.components.size() != (retro ? 2U : 1U)) return nullptr;
+  auto sampling = std::make_shared<Material::Sampling>();
+  const auto fill = [](double alpha, const std::vector<double>& density, Table& t) {
+    place_edges(alpha, t);
+    DensityNodes table(t);
+    table.assign(density);
+    fill_table(table, t);
+  };
+  fill(narrowest(lobes, LobeKind::ggx), nodes.components[0], sampling->front);
+  if (!retro) return sampling;
+  fill(narrowest(lobes, LobeKind::retro_ggx), nodes.components[1], sampling->back.emplace());
+  for (std::size_t k = 0; k < Table::views; ++k)
+    sampling->back_share[k] = static_cast<float>(std::clamp(nodes.second[k], least_share, 1 - least_share));
   return sampling;
 }
 

@@ -130,6 +130,11 @@ void DensityNodes::tabulate(Integrand& f) {
   }
 }
 
+void DensityNodes::assign(std::span<const double> density) {
+  density_.assign(density.begin(), density.end());
+  for (std::size_t k = 0; k < Table::views; ++k) normalise(k);
+}
+
 double DensityNodes::between(std::size_t k, const Probe& p) const noexcept {
   const double* const n = density_.data() + k * per_view + p.node;
   const double left = n[0] + p.in_cell * (n[1] - n[0]), right = n[edges] + p.in_cell * (n[edges + 1] - n[edges]);

@@ -29,6 +29,9 @@ class DensityNodes {
   /// than a cell of the table must not become a rare sample of large weight.
   void cover(Integrand& f, double most);
 
+  /// Takes densities of another origin; each view's integral becomes 1.
+  void assign(std::span<const double> density);
+
   std::span<const double> view(std::size_t k) const { return std::span(density_).subspan(k * per_view, per_view); }
   const std::array<double, Table::views>& integrals() const noexcept { return integrals_; }
 
