@@ -83,7 +83,7 @@ void SliceTable::eval(const SliceAngles& at, double cos_o, std::span<float> f) c
       return below + fy * (above - below);
     };
     const float lower = square(corner);
-    f[c] = p.scale * (lower + p.fraction * (square(corner + slice) - lower));
+    f[c] = std::min(p.scale * (lower + p.fraction * (square(corner + slice) - lower)), largest_value);
   }
 }
 

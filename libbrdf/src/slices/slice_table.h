@@ -10,6 +10,9 @@
 
 namespace brdf::slices {
 
+/// No f is larger, as with lobes: a file may ask for products beyond float, and quotients with densities must stay finite.
+inline constexpr float largest_value = 1e30f;
+
 /// The numbers of a table for kernels that read them in vectors.
 struct SliceView {
   const float* theta_i = nullptr;    ///< nodes, `slices` of them
