@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 // Bytes or lobes to a Material, and a Material to another evaluation level.
 #include "container/content.h"
+#include "decode/memory_need.h"
 #include "decode/resample_slices.h"
 #include "eval/material_impl.h"
 #include "residual/reconstruct.h"
@@ -20,19 +21,16 @@ namespace {
 struct Source {
   residual::Coefficients coefficients;
   DecodeLimits limits;
+  std::uint64_t reading_bytes = 0;  ///< that reading the file took
 };
 
 eval::Residual residual_for(const Source& source, const LobeSet& lobes, EvalLevel level) {
-  if (level == EvalLevel::fast || source.coefficients.order.empty()) return {};
-  const residual::GridSize& size =
-      level == EvalLevel::exact ? residual::exact_grid : residual::balanced_grids[source.coefficients.basis.table];
-  const std::size_t bytes = residual::grid_bytes(size, source.coefficients.azimuth, source.coefficients.channels);
-  if (bytes > source.limits.max_table_bytes)
-    throw Error(ErrorCode::limit_exceeded, "the " + std::string(to_string(level)) + " table needs " + std::to_string(bytes) +
-                                               " bytes, the limit is " + std::to_string(source.limits.max_table_bytes));
-  if (source.coefficients.slices.empty()) return residual::reconstruct(source.coefficients, size);
-  if (level == EvalLevel::exact) return slices::SliceTable(source.coefficients);
-  return decode::resample_slices(source.coefficients, lobes, size);
+  const residual::Coefficients& c = source.coefficients;
+  if (const auto problem = decode::beyond_limits(decode::memory_need(c, level, source.reading_bytes), level, source.limits)) throw *problem;
+  if (level == EvalLevel::fast || c.order.empty()) return {};
+  if (c.slices.empty()) return residual::reconstruct(c, decode::grid_size(c, level));
+  if (level == EvalLevel::exact) return slices::SliceTable(c);
+  return decode::resample_slices(c, lobes, decode::grid_size(c, level));
 }
 
 Material with_sampling(std::shared_ptr<const Material::Impl> impl, bool sampling) {
@@ -61,6 +59,8 @@ Material Material::decode(std::span<const std::byte> bytes, const DecodeOptions&
   source->coefficients = residual::dequantise(content.residual, content.component.transform, content.residual.layers.size());
   source->coefficients.channels = info.channels.count;
   source->limits = options.limits;
+  source->reading_bytes = file.temporary_bytes;
+  content.residual = {};  // its numbers are in the coefficients now
   eval::Residual residual = residual_for(*source, content.lobes, options.level);
   auto impl = eval::make_impl(std::move(info), std::move(content.lobes), std::move(residual), options.level);
   impl->source = std::move(source);

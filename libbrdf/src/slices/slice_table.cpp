@@ -12,13 +12,18 @@ namespace brdf::slices {
 namespace {
 
 constexpr float largest_exponent = 80.0f;
+constexpr std::size_t padding = 8;  // floats behind the values, for vectors
+
+std::size_t nodes_of(const residual::SliceFrame& f) noexcept {
+  return f.theta_i.size() * static_cast<std::size_t>(f.half_height()) * f.width;
+}
 
 }  // namespace
 
 SliceTable::SliceTable(const residual::Coefficients& c)
     : map_(c.slices), width_(c.slices.width), half_height_(static_cast<std::size_t>(c.slices.half_height())), height_(c.slices.height),
       channels_(static_cast<std::size_t>(c.channels)) {
-  const std::size_t slices = map_.slices(), nodes = slices * half_height_ * width_;
+  const std::size_t slices = map_.slices(), nodes = nodes_of(c.slices);
   const std::vector<double> matrix = residual::channel_matrix(c.transform, c.channels);
   const auto epsilon = static_cast<float>(residual::epsilon_of(c.slices.epsilon));
   std::vector<std::vector<float>> transformed;
@@ -33,7 +38,7 @@ SliceTable::SliceTable(const residual::Coefficients& c)
   for (std::size_t i = 0; i < slices; ++i) theta_i_.push_back(static_cast<float>(map_.theta_i(i)));
   for (std::size_t i = 0; i + 1 < slices; ++i) per_radian_.push_back(static_cast<float>(1 / (map_.theta_i(i + 1) - map_.theta_i(i))));
   per_radian_.push_back(0.0f);
-  values_.resize(nodes * channels_ + 8);
+  values_.resize(nodes * channels_ + padding);
   for (std::size_t n = 0; n < nodes; ++n)
     for (std::size_t ch = 0; ch < channels_; ++ch) {
       float y = 0;
@@ -66,6 +71,20 @@ SliceView SliceTable::view() const noexcept {
 std::size_t SliceTable::bytes() const noexcept {
   return map_.samples().size_bytes() + map_.row_integrals().size_bytes() + map_.ndf().size_bytes() + map_.sigma().size_bytes() +
          (values_.size() + theta_i_.size() + per_radian_.size()) * sizeof(float);
+}
+
+std::size_t SliceTable::bytes_of(const residual::SliceFrame& f, int channels) noexcept {
+  const std::size_t slices = f.theta_i.size(), rows = slices * ((f.rows + 1U) / 2U), columns = f.ndf.size();
+  return rows * columns * sizeof(SliceMap::Sample) + rows * sizeof(SliceMap::Row) +
+         (columns + sigma_nodes + nodes_of(f) * static_cast<std::size_t>(channels) + padding + 2 * slices) * sizeof(float);
+}
+
+std::size_t SliceTable::temporary_bytes_of(const residual::SliceFrame& f, int channels) noexcept {
+  const auto n = static_cast<std::size_t>(channels);
+  const std::size_t longest = std::max({f.theta_i.size(), static_cast<std::size_t>(f.half_height()), static_cast<std::size_t>(f.width)});
+  // the cosines of all channels and a cube before and after a sum; rows of the map
+  return nodes_of(f) * (n + 2) * sizeof(float) + (longest * longest + longest) * sizeof(float) + n * (n * sizeof(double) + 2 * sizeof(std::vector<float>)) +
+         4 * f.ndf.size() * sizeof(double) + 2 * f.theta_i.size() * sizeof(double);
 }
 
 void SliceTable::eval(const SliceAngles& at, double cos_o, std::span<float> f) const noexcept {

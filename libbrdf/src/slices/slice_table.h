@@ -37,6 +37,11 @@ class SliceTable {
   SliceView view() const noexcept;
   std::size_t bytes() const noexcept;
 
+  /// bytes() of the table of a frame, before it is made.
+  static std::size_t bytes_of(const residual::SliceFrame& frame, int channels) noexcept;
+  /// What making it takes at most beside that.
+  static std::size_t temporary_bytes_of(const residual::SliceFrame& frame, int channels) noexcept;
+
  private:
   SliceMap map_;
   std::size_t width_, half_height_, height_, channels_;
