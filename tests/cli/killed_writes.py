@@ -17,6 +17,18 @@ KILLS = 200
 SEED = 20240607
 
 
+def wait_for_write(child, place):
+    """Until the program has a file of this folder open, with a name or without; Linux only."""
+    fds = f"/proc/{child.pid}/fd"
+    while child.poll() is None:
+        try:
+            if any(os.readlink(f"{fds}/{fd}").startswith(f"{place}/") for fd in os.listdir(fds)):
+                return
+        except OSError:
+            pass  # closed while it was looked at, or ended
+        time.sleep(0.0005)
+
+
 class Writer:
     """A command that writes one file, run in a folder of its own."""
 
@@ -29,9 +41,9 @@ class Writer:
         self.seconds = time.monotonic() - start
         self.whole = whole.read_bytes()
 
-    def killed_after(self, number, wait, existing):
-        """Starts over an old file or none, kills, and returns what is wrong with what is left, the name that the output has
-        had, and whether the kill came in time."""
+    def killed_after(self, number, wait, existing, from_write):
+        """Starts over an old file or none, kills, and returns what is wrong with what is left and whether the kill came in
+        time. `wait` counts from the start, or from the moment at which the write begins."""
         place = folder() / f"{self.name}-{number}"
         place.mkdir()
         out = place / "out.brdfc"
@@ -39,6 +51,8 @@ class Writer:
             out.write_bytes(OLD)
         child = subprocess.Popen([BRDF_COMPRESS, *map(str, self.arguments), "-o", str(out), "-q", "-f"],
                                  stderr=subprocess.DEVNULL)
+        if from_write:
+            wait_for_write(child, place)
         time.sleep(wait)
         child.send_signal(signal.SIGKILL)
         in_time = child.wait() == -signal.SIGKILL
@@ -65,7 +79,8 @@ class Writer:
         for name in left:
             (place / name).unlink()
         place.rmdir()
-        return [f"{self.name} killed after {wait:.4f} s: {w}" for w in wrong], in_time
+        begin = "the write began" if from_write else "the start"
+        return [f"{self.name} killed {wait:.4f} s after {begin}: {w}" for w in wrong], in_time
 
 
 class KilledWrites(CliTest):
@@ -78,9 +93,10 @@ class KilledWrites(CliTest):
         jobs = []
         for number in range(KILLS):
             writer = writers[number % len(writers)]
-            # half of them anywhere, half around the end, where the file is written; two at a time are slower than one was
-            moment = draw.uniform(0, 1.2) if draw.random() < 0.5 else draw.uniform(0.7, 2.2)
-            jobs.append((writer, number, moment * writer.seconds, draw.random() < 0.5))
+            # half of them anywhere, half while the file is written
+            from_write = draw.random() < 0.5
+            wait = draw.uniform(0, 0.05) if from_write else draw.uniform(0, 1.5) * writer.seconds
+            jobs.append((writer, number, wait, draw.random() < 0.5, from_write))
         with concurrent.futures.ThreadPoolExecutor(2) as pool:
             results = list(pool.map(lambda job: job[0].killed_after(*job[1:]), jobs))
         wrong = [sentence for found, _ in results for sentence in found]
