@@ -1,9 +1,16 @@
 #!/usr/bin/env python3
 # SPDX-License-Identifier: Apache-2.0
 """Files that cannot be read end with exit code 3 and a sentence that names the file and what is wrong with it."""
+import json
+import os
 import struct
+import subprocess
+import threading
+import time
 
-from support.cli_harness import CliTest, MERL_BYTES, MERL_CELLS, compressed, folder, main, measured
+from support.brdfc_coding import xxh32
+from support.cli_harness import BRDF_COMPRESS, CliTest, MERL_BYTES, MERL_CELLS, compressed, folder, main, measured, run
+from support.small_rgl import small_rgl
 
 LFS_POINTER = (b"version https://git-lfs.github.com/spec/v1\n"
                b"oid sha256:4d7a214614ab2935c943f9e0ff69d22eadbb8f32b1258daaa5e2ca24d17e2393\nsize 34992012\n")
@@ -97,6 +104,128 @@ class BadInputs(CliTest):
         self.fail_with(3, "verify", measured(), says="measured")
         self.fail_with(3, "bench", compressed(), says="measured")
         self.assertFalse(out.exists())
+
+    def quickly_refused(self, path, *words):
+        """Without reading what is large: little time and memory."""
+        start = time.monotonic()
+        child = subprocess.Popen([BRDF_COMPRESS, "info", path], stderr=subprocess.PIPE)
+        sentence = child.stderr.read().decode()
+        _, status, usage = os.wait4(child.pid, 0)
+        child.returncode = os.waitstatus_to_exitcode(status)
+        child.stderr.close()
+        self.assertEqual(child.returncode, 3, sentence)
+        self.assertEqual(sentence.count("\n"), 1, sentence)
+        for word in [str(path), *words]:
+            self.assertIn(word, sentence)
+        self.assertLess(time.monotonic() - start, 5)
+        self.assertLess(usage.ru_maxrss, 300 << 10)  # KiB; sanitizers take some
+
+    def sparse(self, name, size, head=b""):
+        path = written(name, head)
+        os.truncate(path, size)
+        return path
+
+    def test_enormous_files(self):
+        self.quickly_refused(self.sparse("large.binary", 2 << 30), "2147483648 bytes", "limit")
+        self.quickly_refused(self.sparse("limit.binary", 1 << 30), "no file that can be read")
+        self.quickly_refused(self.sparse("text.binary", 1 << 30, b"text " * 200), "text")
+        self.quickly_refused(self.sparse("pointer.binary", 1 << 30, LFS_POINTER + b" " * 600), "Git-LFS")
+        self.quickly_refused(self.sparse("large.brdfc", 1 << 30, compressed().read_bytes()), "1073741824 bytes", "67108864")
+
+    def test_devices(self):
+        self.quickly_refused("/dev/zero", "no file that can be read")
+        self.quickly_refused("/dev/null", "empty")
+        for verb in (["eval"], ["verify"], ["compress", "-o", folder() / "never.brdfc"]):
+            self.fail_with(3, *verb, "/dev/zero", says="/dev/zero")
+
+    def test_pipes(self):
+        pipe = folder() / "pipe"
+        os.mkfifo(pipe)
+        for data, code in [(b"", 3), (LFS_POINTER, 3), (bytes(5000), 3), (compressed().read_bytes(), 0), (small_rgl(), 0),
+                           (compressed().read_bytes()[:-1], 3), (measured().read_bytes()[:10**6], 3)]:
+            def feed():
+                try:
+                    pipe.write_bytes(data)
+                except BrokenPipeError:
+                    pass  # what was not wanted is not read
+            writer = threading.Thread(target=feed)
+            writer.start()
+            done = run("info", pipe)
+            writer.join()
+            self.assertEqual(done.returncode, code, done.stderr)
+
+    def test_links_that_lead_nowhere(self):
+        loop, dangling = folder() / "loop", folder() / "dangling"
+        loop.symlink_to(loop)
+        dangling.symlink_to(folder() / "gone")
+        self.refused(loop, "symbolic links")
+        self.refused(dangling, "No such file")
+
+    def test_names_that_are_no_text(self):
+        name = os.fsencode(folder()) + b"/\xff\xc3\x28\x1b[31mred\nline.brdfc"
+        for wanted in (3, 0):
+            for options in ([], ["--json"]):
+                done = subprocess.run([BRDF_COMPRESS, "info", name, *options], capture_output=True, check=False)
+                self.assertEqual(done.returncode, wanted, done.stderr)
+                for text in (done.stdout.decode(), done.stderr.decode()):
+                    self.assertNotIn("\x1b", text)
+                self.assertEqual(done.stderr.count(b"\n"), 1 if wanted else 0, done.stderr)
+                if options and not wanted:
+                    json.loads(done.stdout)
+            if wanted:
+                with open(name, "wb") as file:
+                    file.write(compressed().read_bytes())
+        os.unlink(name)
+
+    def test_text_of_the_file_does_not_command_the_terminal(self):
+        out = folder() / "named.brdfc"
+        self.succeed("compress", measured(), "-o", out, "-f", "--preset", "fastest", "--target-size", 500, "--provenance", "-q")
+        data = out.read_bytes()
+        at = data.index(b"sample")  # the material's name, in the provenance chunk, which is the last
+        begin = at - 1
+        seed = None
+        for end in range(begin - 8, begin + 1):
+            before = int.from_bytes(data[end - 4:end], "little")
+            if xxh32(data[end:-4], before) == int.from_bytes(data[-4:], "little"):
+                seed, payload = before, data[end:-4]
+        self.assertIsNotNone(seed, "the provenance chunk was not found")
+        payload = payload.replace(b"sample", b"\x1b[31m\n", 1)
+        out.write_bytes(data[:-4 - len(payload)] + payload + xxh32(payload, seed).to_bytes(4, "little"))
+        shown = self.succeed("info", out).stdout.decode()
+        self.assertNotIn("\x1b", shown)
+        self.assertIn("[31m", shown)
+        self.assertIn("\x1b", self.report("info", out)[0]["name"])  # JSON has its own escapes
+
+    def test_rows_of_any_kind(self):
+        for row in [b"nan,0,1,0,0,1", b"0,0,1,0,0,inf", b"1e300,0,1,0,0,1", b"0,0,1", b"0,0,1,0,0,1,7", b"\0\0\0", b"a,b,c,d,e,f",
+                    b"0,0,1,0,0,--1", b"0,0,1,0,0,0x1", b"," * 5, b"\xff\xfe", b"1" * 100000, b"0,0,1,0,0,1\n0,0,1,0,0,nan"]:
+            with self.subTest(row=row[:40]):
+                for verb in ("eval", "pdf"):
+                    self.fail_with(3, verb, compressed(), stdin=row + b"\n", says="standard input: ")
+        for row in [b"0,0,1,0,0,1e-300", b"0,0,1,1e-40,1e-40,1e-40", b"0,0,1,0,0,-1", b"-0,-0,1,-0,-0,1", b"1e38,1e38,1e38,-1e38,0,1e38", b"0,0,0,0,0,0"]:
+            for verb in ("eval", "pdf"):
+                done = run(verb, compressed(), stdin=row)
+                self.assertIn(done.returncode, (0, 3), (row, done.stderr))
+                for number in done.stdout.replace(b"\n", b",").split(b",")[:-1]:
+                    self.assertTrue(0 <= float(number) < float("inf"), (row, done.stdout))
+        for nothing in (b"", b"\n\n", b"# no rows\n"):
+            self.assertEqual(self.succeed("eval", compressed(), stdin=nothing).stdout, b"")
+
+    def test_numbers_at_their_ends(self):
+        out = folder() / "ends.brdfc"
+        arguments = ["compress", measured(), "-o", out, "-f", "--preset", "fastest", "-q"]
+        self.succeed(*arguments, "--target-size", 2**64 - 1)
+        self.assertLess(out.stat().st_size, 1 << 20)
+        before = out.read_bytes()
+        for size in ("-1", "0", "1e99", "18446744073709551616", "", " 5", "0x10", "5 "):
+            self.fail_with(2, *arguments, f"--target-size={size}", says="--target-size")
+        self.fail_with(4, *arguments, "--target-size", 1)
+        for error in ("log_mae=inf", "log_mae=", "=1", "log_mae=1e999", "psnr_env=-inf", "psnr_env=nan"):
+            self.fail_with(2, *arguments, f"--target-error={error}", says="--target-error")
+        self.fail_with(4, *arguments, "--target-error=psnr_env=1e300")
+        self.assertEqual(out.read_bytes(), before)
+        self.succeed("eval", out, "--prefix", 2**64 - 1)
+        self.fail_with(2, "eval", out, "--prefix", 1, says="--prefix")
 
 
 if __name__ == "__main__":

@@ -117,18 +117,22 @@ TEST(BrdfcLimits, CoefficientsOfManyChannels) {
   FileParts p = test::parts_of(pack(c));
   p.chunks.push_back({2, residual_payload(residual::max_coefficients, 1000, residual::max_coefficients), std::nullopt});
   DecodeLimits limits;
-  limits.max_table_bytes = 1 << 24;
+  limits.max_temporary_bytes = 1 << 24;
   expect_error(ErrorCode::limit_exceeded, {"coefficients"}, [&] { read(p, limits); });
 }
 
 // Every layer may begin again, so that the sum over the layers counts.
 TEST(BrdfcLimits, CoefficientsOfAllLayers) {
-  constexpr std::uint64_t needed = 4 * 60 * 3 * (1 + 3);  // bytes * count * channels * (contexts and three layers)
+  const std::uint64_t needed = unpack(layered().build(), {}, false).temporary_bytes;
+  EXPECT_GE(needed, 4U * 60 * 3 * (1 + 3));  // bytes * count * channels * (their sum and three layers)
   DecodeLimits limits;
-  limits.max_table_bytes = needed;
+  limits.max_temporary_bytes = needed;
   EXPECT_NO_THROW(read(layered(), limits));
-  limits.max_table_bytes = needed - 1;
-  expect_error(ErrorCode::limit_exceeded, {std::to_string(needed).c_str()}, [&] { read(layered(), limits); });
+  limits.max_temporary_bytes = needed - 1;
+  expect_error(ErrorCode::limit_exceeded, {"coefficients", std::to_string(needed).c_str()}, [&] { read(layered(), limits); });
+  FileParts fewer = layered();
+  fewer.chunks.erase(fewer.chunks.begin() + 3);
+  EXPECT_GE(needed, unpack(fewer.build(), {}, false).temporary_bytes + 4U * 60 * 3);
 }
 
 TEST(BrdfcLimits, TablesOfALevel) {

@@ -107,6 +107,9 @@ TEST(BadMerl, LargerThanTheLimits) {
   options.limits.max_table_values = 4373999;
   expect_refused(ErrorCode::limit_exceeded, {"4374000", "4373999"}, bytes, options);
   options = {};
+  options.limits.max_temporary_bytes = 4 * 4374000 + 1458000 - 1;  // three floats and a flag for each cell
+  expect_refused(ErrorCode::limit_exceeded, {"18954000", "18953999"}, bytes, options);
+  options = {};
   options.limits.max_channels = 2;
   expect_refused(ErrorCode::limit_exceeded, {"3 channels", "limit is 2"}, bytes, options);
 }

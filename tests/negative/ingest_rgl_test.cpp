@@ -245,6 +245,12 @@ TEST(BadRgl, LargerThanTheLimits) {
   options.limits.max_table_values = 53;
   expect_refused(ErrorCode::limit_exceeded, {"'rgb'", "54 values", "limit is 53"}, small_rgl_material(), options);
   options = {};
+  constexpr std::uint64_t values = 2 + 4 + 4 + 8 + 2 * 54;  // theta_i, sigma, ndf, vndf, and rgb twice
+  options.limits.max_temporary_bytes = 4 * values - 1;
+  expect_refused(ErrorCode::limit_exceeded, {"126 values", "limit is 503 bytes"}, small_rgl_material(), options);
+  options.limits.max_temporary_bytes = 4 * values;
+  EXPECT_NO_THROW(read_measurement(small_rgl_material().build(), "fits", options));
+  options = {};
   options.limits.max_fields = 7;
   expect_refused(ErrorCode::limit_exceeded, {"8 fields", "limit is 7"}, small_rgl_material(), options);
 }

@@ -19,7 +19,7 @@ class SliceFrame:
         require(2 <= count <= 24, "the number of slices is not 2 to 24")
         require(all(a < b for a, b in zip(codes, codes[1:])), "the slices do not ascend")
         require(2 <= self.width <= 64 and 2 <= self.height <= 64, "the squares are not of 2 to 64 nodes")
-        require(self.rows >= 4 and step <= 20 and epsilon <= 227 and nodes >= 2, "a field is out of range")
+        require(self.rows >= 4 and step <= 20 and epsilon <= 227 and nodes >= 3, "a field is out of range")
         require(length <= len(data), "the ndf is cut")
         self.rest = data[length:]
         self.half_height, self.half_rows = (self.height + 1) // 2, (self.rows + 1) // 2
@@ -157,7 +157,7 @@ class SliceTable:
             if weight:
                 node = self.nodes.get((i + a, j + b, s + c), self.zero)
                 f = [p + scale * weight * q for p, q in zip(f, node)]
-        return f
+        return [min(value, 1e30) for value in f]
 
 
 def unwarp(u, kappa):

@@ -34,6 +34,7 @@ PROGRAMS = {"base", "geometry", "ingest"}
 PUBLIC = {
     "brdf/lobes.h": {"lobes", "fit", "residual", "container", "eval", "sample", "decode", "encode"},
     "brdf/material.h": {"container", "eval", "sample", "decode", "encode"},
+    "brdf/check.h": {"decode"},
     "brdf/ingest.h": {"ingest", "encode"},
     "brdf/fit.h": {"fit", "encode"},
     "brdf/metrics.h": {"metrics", "encode"},

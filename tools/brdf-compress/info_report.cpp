@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "info_report.h"
 
+#include <brdf/check.h>
+
 #include "compressed_file.h"
 #include "material_checks.h"
 
@@ -135,9 +137,12 @@ Json compressed_info(const MaterialSource& source) {
   row["refinements_total"] = info.refinements_total;
   row["refinements"] = refinements(source);
   row["lobes"] = lobe_list(material.lobes());
+  const FileCheck check = check_file(source.bytes(), {}, true);
   for (const EvalLevel level : {EvalLevel::fast, EvalLevel::balanced, EvalLevel::exact}) {
-    row["resident_bytes"][to_string(level)] = material.prepare(level, false).resident_bytes();
-    row["largest_albedo"][to_string(level)] = largest_albedo(material.prepare(level, true)).value;
+    // null: the tables are beyond the limits
+    row["resident_bytes"][to_string(level)] = check.readable(level) ? Json(material.prepare(level, false).resident_bytes()) : Json();
+    row["temporary_bytes"][to_string(level)] = check.at(level).temporary_bytes;
+    row["largest_albedo"][to_string(level)] = check.readable(level) ? Json(largest_albedo(material.prepare(level, true)).value) : Json();
   }
   return row;
 }

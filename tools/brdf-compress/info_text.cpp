@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 // The report of `info` for people.
 #include "info_report.h"
+#include "ingest/printable_text.h"
 #include "text_table.h"
 
 namespace brdf::cli {
@@ -9,7 +10,8 @@ namespace {
 class Facts {
  public:
   Facts& add(const std::string& what, const std::string& value) {
-    if (!value.empty()) table_.rows.push_back({what, value});
+    // names and descriptions come from the file
+    if (!value.empty()) table_.rows.push_back({what, ingest::printable_text(value)});
     return *this;
   }
   std::string text() {
@@ -30,6 +32,14 @@ std::string channels(const Json& row) {
   const Json& nm = row["wavelengths_nm"];
   if (!nm.empty()) text += ", " + significant(nm.front(), 4) + " to " + significant(nm.back(), 4) + " nm";
   return text + ")";
+}
+
+/// Bytes of each level.
+std::string by_level(const Json& levels) {
+  std::string text;
+  for (const auto& [level, bytes] : levels.items())
+    text += (text.empty() ? "" : ", ") + level + " " + (bytes.is_null() ? "beyond the limits" : std::to_string(bytes.get<std::uint64_t>()));
+  return text;
 }
 
 std::string word(const Json& row, const char* key) { return row[key].get<std::string>(); }
@@ -98,10 +108,6 @@ std::string compressed_text(const Json& row) {
   std::string albedo;
   for (const auto& [level, value] : row["largest_albedo"].items())
     albedo += (albedo.empty() ? "" : ", ") + level + " " + significant(value, 4) + (value.get<double>() > 1 ? " (more than it receives)" : "");
-  std::string resident;
-  for (const auto& [level, bytes] : row["resident_bytes"].items()) {
-    resident += (resident.empty() ? "" : ", ") + level + " " + std::to_string(bytes.get<std::uint64_t>());
-  }
   const auto number = [&](const char* key) { return std::to_string(row[key].get<std::uint64_t>()); };
   const std::string facts = Facts()
                                 .add("file", word(row, "file"))
@@ -118,7 +124,8 @@ std::string compressed_text(const Json& row) {
                                 .add("reciprocal", row["reciprocal"].get<bool>() ? "exactly" : "no")
                                 .add("mirror symmetric", row["mirror_symmetric"].get<bool>() ? "yes" : "no")
                                 .add("largest albedo", albedo)
-                                .add("resident bytes", resident)
+                                .add("resident bytes", by_level(row["resident_bytes"]))
+                                .add("bytes while decoding", by_level(row["temporary_bytes"]))
                                 .text();
   return facts + '\n' + lobe_table(row["lobes"]) + '\n' + refinement_table(row["refinements"]);
 }

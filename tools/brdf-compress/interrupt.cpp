@@ -39,6 +39,7 @@ void install_signal_handlers() {
     ::sigaction(number, &action, nullptr);
   }
   ::signal(SIGPIPE, SIG_IGN);
+  ::signal(SIGXFSZ, SIG_IGN);  // a file beyond the size that the user may write: the write itself then says so
 }
 
 DeferInterrupt::DeferInterrupt() noexcept { deferred = 1; }

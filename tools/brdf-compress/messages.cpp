@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "messages.h"
 
+#include "ingest/printable_text.h"
+
 #include <iostream>
 
 namespace brdf::cli {
@@ -13,6 +15,9 @@ void Reporting::detail(const std::string& line) const {
   if (verbose && !quiet) std::cerr << line << '\n';
 }
 
-void complain(const std::string& sentence) { std::cerr << "brdf-compress: " << sentence << '\n'; }
+void complain(const std::string& sentence) {
+  constexpr std::size_t longest = std::size_t{1} << 14;  // names of files may hold line ends and what a terminal obeys
+  std::cerr << "brdf-compress: " << ingest::printable_text(sentence, longest) << '\n';
+}
 
 }  // namespace brdf::cli

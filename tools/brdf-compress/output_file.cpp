@@ -33,6 +33,7 @@ void check_output(const fs::path& output, const fs::path& input, bool force) {
   if (fs::is_regular_file(status) && !force) throw exists_already(output);
   if (fs::exists(status) && !fs::is_regular_file(status)) return;  // a device or pipe: the write itself will tell
   const fs::path folder = output.has_parent_path() ? output.parent_path() : fs::path(".");
+  if (fs::exists(folder, error) && !fs::is_directory(folder, error)) throw base::io_error(output, "create", ENOTDIR);
   if (::access(folder.c_str(), W_OK | X_OK) != 0) throw base::io_error(output, "create", errno);
 }
 

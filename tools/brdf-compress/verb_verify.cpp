@@ -10,6 +10,8 @@
 #include "verb_options.h"
 #include "verbs.h"
 
+#include <brdf/check.h>
+
 #include <algorithm>
 #include <cmath>
 #include <memory>
@@ -53,6 +55,18 @@ Json json_rows(const Checks& checks) {
   return rows;
 }
 
+/// Whether the tables of each level are within the limits that decode has by default, and how large the largest are.
+Checks memory_checks(const FileCheck& check) {
+  Checks checks;
+  for (const EvalLevel level : {EvalLevel::fast, EvalLevel::balanced, EvalLevel::exact}) {
+    const LevelCheck& found = check.at(level);
+    checks.push_back({"memory is within the limits", check.readable(level),
+                      static_cast<double>(found.table_bytes + found.temporary_bytes), "the default limits of decode",
+                      std::string("at ") + to_string(level) + (found.problem ? std::string(", ") + found.problem->what() : "")});
+  }
+  return checks;
+}
+
 Checks examine(const Options& o) {
   ProgressBar bar(o.reporting);
   bar.show("reading", 0);
@@ -64,9 +78,12 @@ Checks examine(const Options& o) {
   Checks checks{{"the file decodes", true, static_cast<double>(file.bytes().size()), "checksums and structure",
                  "bytes, " + std::to_string(file.material().info().refinements_read) + " of " +
                      std::to_string(file.material().info().refinements_total) + " refinements"}};
+  const FileCheck found = check_file(file.bytes(), {}, true);
+  append(checks, memory_checks(found));
   checks.push_back(prefix_check(file.bytes(), file.path()));
   for (const EvalLevel level : {EvalLevel::fast, EvalLevel::balanced, EvalLevel::exact}) {
     bar.show("values", 0.05);
+    if (!found.readable(level)) continue;
     append(checks, value_checks(file.material().prepare(level)));
   }
   checks.push_back(albedo_check(file.material()));

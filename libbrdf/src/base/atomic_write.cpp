@@ -139,6 +139,8 @@ void write_file_atomically(const fs::path& path, std::span<const std::byte> byte
     if (S_ISDIR(status.st_mode)) throw Error(ErrorCode::io, path.string() + ": is a directory, not a file");
     if (!S_ISREG(status.st_mode)) return write_to_device(path, bytes);
     if (!overwrite) throw exists_already(path);
+  } else if (errno != ENOENT) {  // a loop of links, a name that is too long, a folder that is none or may not be searched
+    throw io_error(path, "open", errno);
   }
   const fs::path target = follow_links(path);
   const fs::path folder = target.has_parent_path() ? target.parent_path() : fs::path(".");

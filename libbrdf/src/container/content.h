@@ -54,6 +54,7 @@ struct Unpacked {
   Content content;
   int refinements_read = 0, refinements_total = 0;
   std::uint64_t total_bytes = 0;
+  std::uint64_t temporary_bytes = 0;  ///< that reading and adding up the layers take at most; see DecodeLimits
 };
 
 /// The bytes of a file. Deterministic. Throws Error(invalid_argument).

@@ -26,10 +26,7 @@ void code_nodes(Coder& coder, residual::CoefficientModel& model, std::span<std::
     const auto near = [&](std::size_t back, bool there) { return there ? static_cast<std::uint32_t>(magnitude[n - back]) : 0U; };
     const std::uint32_t activity = 2 * near(1, i > 0) + near(across, across > 0) + near(density_heights, j > 0);
     const std::int32_t change = model.code(coder, true, residual::activity_class(activity), 0, nodes[n] - expected);
-    const std::int32_t code = expected + change;
-    if (std::abs(code) > largest_density_code)
-      throw Error(ErrorCode::malformed, "sampling chunk: a density code is " + std::to_string(code) + ", at most " +
-                                            std::to_string(largest_density_code) + " are allowed");
+    const std::int32_t code = std::clamp(expected + change, -largest_density_code, largest_density_code);
     nodes[n] = static_cast<std::int16_t>(code);
     magnitude[n] = static_cast<std::uint8_t>(std::min(std::abs(change), 255));
   }
@@ -49,17 +46,22 @@ std::vector<std::byte> write_density(const DensityCodes& codes) {
   return out;
 }
 
-DensityCodes read_density(std::span<const std::byte> payload) {
+void check_density(std::span<const std::byte> payload, bool retro) {
   const auto refuse = [](const std::string& why) { return Error(ErrorCode::malformed, "sampling chunk: " + why); };
+  if (payload.size() > most_density_bytes) throw refuse(std::to_string(payload.size()) + " bytes, at most " + std::to_string(most_density_bytes) + " are allowed");
   if (payload.size() < 2) throw refuse("it ends within its head");
-  const auto level = static_cast<unsigned>(payload[0]), components = static_cast<unsigned>(payload[1]);
+  const auto level = static_cast<unsigned>(payload[0]), components = static_cast<unsigned>(payload[1]), wanted = retro ? 2U : 1U;
   if (level > static_cast<unsigned>(EvalLevel::exact)) throw refuse("level " + std::to_string(level) + " is not 0 to 2");
-  if (components < 1 || components > 2) throw refuse(std::to_string(components) + " components, not 1 or 2");
-  payload = payload.subspan(2);
+  if (components != wanted) throw refuse(std::to_string(components) + " components, the lobes make " + std::to_string(wanted));
+  if (components == 2 && payload.size() < 2 + density_views) throw refuse("it ends within its shares");
+}
+
+DensityCodes read_density(std::span<const std::byte> payload) {
   DensityCodes codes;
-  codes.level = static_cast<EvalLevel>(level);
+  codes.level = static_cast<EvalLevel>(payload[0]);
+  const auto components = static_cast<std::size_t>(payload[1]);
+  payload = payload.subspan(2);
   if (components == 2) {
-    if (payload.size() < density_views) throw refuse("it ends within its shares");
     for (std::size_t k = 0; k < density_views; ++k) codes.second[k] = static_cast<std::uint8_t>(payload[k]);
     payload = payload.subspan(density_views);
   }
@@ -67,7 +69,6 @@ DensityCodes read_density(std::span<const std::byte> payload) {
   residual::CoefficientModel model;
   codes.components.assign(components, std::vector<std::int16_t>(density_nodes));
   for (std::vector<std::int16_t>& nodes : codes.components) code_nodes(coder, model, nodes);
-  if (coder.overrun() > 4 || coder.unread() > 0) throw refuse("its end is not where its densities end");
   return codes;
 }
 

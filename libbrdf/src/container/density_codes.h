@@ -17,7 +17,8 @@ inline constexpr std::size_t density_views = 24, density_rows = 25, density_heig
 inline constexpr std::size_t density_nodes = density_views * density_rows * density_heights;
 /// A density is 2^(code / 16).
 inline constexpr double density_steps = 16;
-inline constexpr int largest_density_code = 1600;
+inline constexpr std::int32_t largest_density_code = 1600;
+inline constexpr std::size_t most_density_bytes = 1 << 18;
 
 struct DensityCodes {
   EvalLevel level = EvalLevel::balanced;               ///< that it was made for
@@ -27,7 +28,10 @@ struct DensityCodes {
 
 std::vector<std::byte> write_density(const DensityCodes& codes);
 
-/// Throws Error(malformed).
+/// Level, number of components and shares. `retro`: whether the file has retro lobes. Throws Error(malformed).
+void check_density(std::span<const std::byte> payload, bool retro);
+
+/// Of a payload that was checked. Any stream makes a density: codes beyond the largest are clamped.
 DensityCodes read_density(std::span<const std::byte> payload);
 
 }  // namespace brdf::container

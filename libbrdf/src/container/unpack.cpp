@@ -2,15 +2,18 @@
 #include "base/byte_reader.h"
 #include "container/chunk_types.h"
 #include "container/content.h"
+#include "container/density_codes.h"
 #include "container/error_codes.h"
 #include "container/header.h"
 #include "container/lobe_codes.h"
+#include "container/lobe_quantiser.h"
 #include "container/packed_lobes.h"
 #include "container/residual_chunk.h"
 #include "container/slice_frame_codes.h"
 #include "container/varint.h"
 #include "residual/layer_codec.h"
 
+#include <algorithm>
 #include <optional>
 
 namespace brdf::container {
@@ -63,7 +66,10 @@ class ChunkReader {
       case ChunkType::residual: return residual(payload);
       case ChunkType::refinement: return refinement(payload);
       case ChunkType::provenance: return read_provenance(payload, out_.content);
-      case ChunkType::sampling: out_.content.sampling.assign(payload.begin(), payload.end()); return;  // decoded where it is needed
+      case ChunkType::sampling:
+        spend(payload.size(), "sampling tables");
+        out_.content.sampling.assign(payload.begin(), payload.end());  // decoded where it is needed
+        return;
     }
     if ((code & optional_bit) == 0)
       throw Error(ErrorCode::unsupported, "chunk: critical " + kind_name(code) + " is not known to this version");
@@ -73,6 +79,7 @@ class ChunkReader {
   void lobes(std::span<const std::byte> payload, LobeSet (*reader)(std::span<const std::byte>, int, std::uint32_t)) {
     if (have_lobes_) throw Error(ErrorCode::malformed, "chunk: a second lobes chunk");
     have_lobes_ = true;
+    spend(most_lobes * channels() * 3 * sizeof(double), "lobes");  // as read, and twice as evaluated
     out_.content.errors.push_back(read_error(payload, 0, EvalLevel::fast));
     out_.content.lobes = reader(payload, out_.content.component.channels.count, limits_.max_lobes);
   }
@@ -86,12 +93,9 @@ class ChunkReader {
     code.basis = read_basis(bits, count_);
     code.azimuth = azimuth_of(out_.content.component);
     code.channels = out_.content.component.channels.count;
-    spend(count_);  // the field of magnitudes
     std::span<const std::byte> layers = bits.rest();
-    if (out_.content.component.axes == AxesKind::slices) {
-      code.slices = read_slice_frame(layers);
-      spend_slices(code.slices, static_cast<std::uint64_t>(code.channels));
-    }
+    if (out_.content.component.axes == AxesKind::slices) code.slices = read_slice_frame(layers);
+    spend_codec(residual::reach_of(code.slices));
     codec_.emplace(code.basis, residual::even_only(code.azimuth), code.channels, count_, residual::reach_of(code.slices));
     layer(layers);
   }
@@ -110,33 +114,38 @@ class ChunkReader {
   void layer(std::span<const std::byte> bytes) {
     auto& layers = out_.content.residual.layers;
     const residual::Layer* before = layers.empty() ? nullptr : &layers.back();
-    spend(count_);
+    spend(channels() * (count_ * sizeof(std::int32_t) + sizeof(std::vector<std::int32_t>) + sizeof(std::uint32_t)), residual_name);
     layers.push_back(residual::decode_layer(*codec_, before, bytes, static_cast<std::size_t>(out_.content.residual.channels), count_));
     ++out_.refinements_read;
   }
 
-  /// Counts the table in slices, while it is made twice as large, and the map of its normals.
-  void spend_slices(const residual::SliceFrame& f, std::uint64_t channels) const {
-    const std::uint64_t slices = f.theta_i.size(), nodes = slices * static_cast<std::uint64_t>(f.half_height()) * f.width;
-    const std::uint64_t bytes = 2 * nodes * channels * sizeof(float) + slices * ((f.rows + 1U) / 2U) * f.ndf.size() * 2 * sizeof(float);
-    if (bytes > limits_.max_table_bytes)
-      throw Error(ErrorCode::limit_exceeded, "slice frame: its table needs " + std::to_string(bytes) + " bytes, the limit is " +
-                                                 std::to_string(limits_.max_table_bytes));
+  /// What is there once for all layers: magnitudes known so far with a border of two, two lists of frequencies, and the sum
+  /// of the layers.
+  void spend_codec(const residual::Extent& reach) {
+    const auto box = [n = std::uint64_t{count_}](int most) { return std::min(n, static_cast<std::uint64_t>(most)) + 2; };
+    spend(channels() * box(reach.k) * box(reach.l) * box(reach.m) + 2 * count_ * sizeof(residual::Frequency) +
+              channels() * (count_ * sizeof(float) + sizeof(std::vector<float>)),
+          residual_name);
   }
 
-  /// Counts what `coefficients` of every channel may cost in memory before any of it is allocated.
-  void spend(std::uint64_t coefficients) {
-    spent_ += coefficients * static_cast<std::uint64_t>(out_.content.component.channels.count) * sizeof(std::int32_t);
-    if (spent_ > limits_.max_table_bytes)
-      throw Error(ErrorCode::limit_exceeded, "residual: its coefficients need up to " + std::to_string(spent_) +
-                                                 " bytes, the limit is " + std::to_string(limits_.max_table_bytes));
+  /// Counts memory before any of it is allocated. Nothing overflows: channels, layers and counts have limits of their own.
+  void spend(std::uint64_t bytes, const char* what) {
+    out_.temporary_bytes += bytes;
+    if (out_.temporary_bytes > limits_.max_temporary_bytes)
+      throw Error(ErrorCode::limit_exceeded, std::string(what) + " need up to " + std::to_string(out_.temporary_bytes) +
+                                                 " bytes while the file is read, the limit is " +
+                                                 std::to_string(limits_.max_temporary_bytes));
   }
+
+  std::uint64_t channels() const noexcept { return static_cast<std::uint64_t>(out_.content.component.channels.count); }
+
+  static constexpr std::uint64_t most_lobes = 1U << lobe_count_bits;
+  static constexpr const char* residual_name = "residual: its coefficients";
 
   Unpacked& out_;
   const DecodeLimits& limits_;
   bool have_lobes_ = false;
   std::uint32_t count_ = 0;
-  std::uint64_t spent_ = 0;
   std::optional<residual::LayerCodec> codec_;
 };
 
@@ -192,6 +201,10 @@ Unpacked unpack(std::span<const std::byte> bytes, const DecodeLimits& limits, bo
   }
   if (out.content.lobes.channels != out.content.component.channels.count || out.content.errors.empty())
     throw Error(ErrorCode::malformed, ".brdfc file: it has no lobes chunk");
+  if (!out.content.sampling.empty()) {
+    const auto& lobes = out.content.lobes.lobes;
+    check_density(out.content.sampling, std::any_of(lobes.begin(), lobes.end(), [](const Lobe& l) { return l.kind == LobeKind::retro_ggx; }));
+  }
   return out;
 }
 

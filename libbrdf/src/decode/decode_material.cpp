@@ -2,6 +2,7 @@
 // Bytes or lobes to a Material, and a Material to another evaluation level.
 #include "container/content.h"
 #include "container/density_codes.h"
+#include "decode/memory_need.h"
 #include "decode/resample_slices.h"
 #include "decode/sampling_tables.h"
 #include "eval/material_impl.h"
@@ -25,19 +26,16 @@ struct Source {
   residual::Coefficients coefficients;
   DecodeLimits limits;
   std::vector<std::byte> sampling;  ///< stored tables, not decoded yet
+  std::uint64_t reading_bytes = 0;  ///< that reading the file took
 };
 
 eval::Residual residual_for(const Source& source, const LobeSet& lobes, EvalLevel level) {
-  if (level == EvalLevel::fast || source.coefficients.order.empty()) return {};
-  const residual::GridSize& size =
-      level == EvalLevel::exact ? residual::exact_grid : residual::balanced_grids[source.coefficients.basis.table];
-  const std::size_t bytes = residual::grid_bytes(size, source.coefficients.azimuth, source.coefficients.channels);
-  if (bytes > source.limits.max_table_bytes)
-    throw Error(ErrorCode::limit_exceeded, "the " + std::string(to_string(level)) + " table needs " + std::to_string(bytes) +
-                                               " bytes, the limit is " + std::to_string(source.limits.max_table_bytes));
-  if (source.coefficients.slices.empty()) return residual::reconstruct(source.coefficients, size);
-  if (level == EvalLevel::exact) return slices::SliceTable(source.coefficients);
-  return decode::resample_slices(source.coefficients, lobes, size);
+  const residual::Coefficients& c = source.coefficients;
+  if (const auto problem = decode::beyond_limits(decode::memory_need(c, level, source.reading_bytes), level, source.limits)) throw *problem;
+  if (level == EvalLevel::fast || c.order.empty()) return {};
+  if (c.slices.empty()) return residual::reconstruct(c, decode::grid_size(c, level));
+  if (level == EvalLevel::exact) return slices::SliceTable(c);
+  return decode::resample_slices(c, lobes, decode::grid_size(c, level));
 }
 
 /// What the file says, if that is of this level; null otherwise.
@@ -51,12 +49,11 @@ std::shared_ptr<const Material::Sampling> stored_sampling(const Material::Impl& 
   sample::NodeDensities nodes;
   for (const auto& component : codes.components) {
     std::vector<double>& density = nodes.components.emplace_back();
+    density.reserve(component.size());
     for (const std::int16_t code : component) density.push_back(std::exp2(code / container::density_steps));
   }
   for (std::size_t k = 0; k < container::density_views; ++k) nodes.second[k] = codes.second[k] / 255.0;
-  auto tables = sample::density_from_nodes(impl.lobes, nodes);
-  if (!tables) throw Error(ErrorCode::malformed, "sampling chunk: its components are not those of the lobes");
-  return tables;
+  return sample::density_from_nodes(impl.lobes, nodes);
 }
 
 std::shared_ptr<const Material::Sampling> sampling_of(const Material::Impl& impl) {
@@ -89,6 +86,8 @@ std::shared_ptr<const Material::Impl> decode_impl(std::span<const std::byte> byt
   source->coefficients.channels = info.channels.count;
   source->limits = options.limits;
   source->sampling = std::move(content.sampling);
+  source->reading_bytes = file.temporary_bytes;
+  content.residual = {};  // its numbers are in the coefficients now
   eval::Residual residual = residual_for(*source, content.lobes, options.level);
   auto impl = eval::make_impl(std::move(info), std::move(content.lobes), std::move(residual), options.level);
   impl->source = std::move(source);

@@ -16,6 +16,7 @@ namespace {
 constexpr double smallest_sine = 1e-6;    // a pole's neighbourhood stands for the pole
 constexpr float lowest_cosine = 0.012f;   // 89.3 degrees: beyond, 1 / cos theta_o takes over
 constexpr float largest_ratio = 14765.0f, smallest_ratio = 1 / largest_ratio;  // normal half floats
+constexpr std::size_t most_lobes = 16 + 1;  // of GGX, and the sum of the others
 constexpr float steepest = 2.0f;          // quotient of two neighbours across the horizon
 
 struct Angle {
@@ -111,6 +112,14 @@ class RatioPlane {
 };
 
 }  // namespace
+
+std::size_t resample_temporary_bytes(const residual::SliceFrame& frame, int channels, const residual::GridSize& size) noexcept {
+  const auto n_h = static_cast<std::size_t>(size.n_h), n_d = static_cast<std::size_t>(size.n_d), n_p = static_cast<std::size_t>(size.n_p);
+  const auto n = static_cast<std::size_t>(channels), plane = n_d * n_p, lobes = n * most_lobes * sizeof(float);
+  const std::size_t pairs = plane * (6 + 2 * n) * sizeof(float) + n_p * sizeof(std::size_t) + 2 * (n_h + n_d + n_p) * sizeof(Angle);
+  const std::size_t filling = 2 * n_h * plane * n * sizeof(float) + pairs + 2 * lobes;
+  return slices::SliceTable::bytes_of(frame, channels) + std::max(slices::SliceTable::temporary_bytes_of(frame, channels), filling);
+}
 
 residual::ResidualGrid resample_slices(const residual::Coefficients& c, const LobeSet& lobes, const residual::GridSize& size) {
   const residual::Basis basis = residual::basis_of(c.basis);

@@ -13,4 +13,7 @@ namespace brdf::decode {
 /// through the last two above it with the same theta_h and phi_d.
 residual::ResidualGrid resample_slices(const residual::Coefficients& c, const LobeSet& lobes, const residual::GridSize& size);
 
+/// Bytes that this takes at most beside its result.
+std::size_t resample_temporary_bytes(const residual::SliceFrame& frame, int channels, const residual::GridSize& size) noexcept;
+
 }  // namespace brdf::decode

@@ -184,7 +184,7 @@ HWY_INLINE void finish_slices(const slices::SliceView& t, SliceBlock& b, const f
       hn::LoadInterleaved4(d, b.value + 4 * at, value[0], value[1], value[2], value[3]);
       const V scale = hn::Mul(hn::Load(d, b.scale + at), hn::Max(hn::Load(d, factor + at), hn::Zero(d)));
       for (std::size_t c = channel; c < std::min(channel + 4, static_cast<std::size_t>(t.channels)); ++c)
-        store_first(hn::Mul(scale, value[c - channel]), f.data + c * f.stride + first + at, std::min(lanes, size - at));
+        store_first(hn::Min(hn::Mul(scale, value[c - channel]), set(slices::largest_value)), f.data + c * f.stride + first + at, std::min(lanes, size - at));
     }
   }
 }

@@ -45,6 +45,12 @@ HalfDifferenceTable read_merl(std::span<const std::byte> bytes, const std::strin
                                                std::to_string(options.limits.max_table_values));
   }
 
+  const std::uint64_t memory = count * sizeof(float) + cells;
+  if (memory > options.limits.max_temporary_bytes) {
+    throw Error(ErrorCode::limit_exceeded, name + ": the table takes " + std::to_string(memory) + " bytes of memory, the limit is " +
+                                               std::to_string(options.limits.max_temporary_bytes));
+  }
+
   HalfDifferenceTable table;
   table.n_theta_h = n[0];
   table.n_theta_d = n[1];

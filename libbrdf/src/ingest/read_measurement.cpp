@@ -84,8 +84,14 @@ Measurement read_measurement(std::span<const std::byte> bytes, const std::string
 }
 
 Measurement read_measurement(const std::filesystem::path& file, const IngestOptions& options) {
-  const std::vector<std::byte> bytes = base::read_file(file, options.limits.max_file_bytes);
-  return read_measurement(bytes, file.string(), options);
+  const std::string name = file.string();
+  // what no reader takes is refused by its first bytes, however large it is
+  const auto check_head = [&name](std::span<const std::byte> head, std::uint64_t file_bytes) {
+    const FileFormat format = sniff(head, file_bytes);
+    if (!head.empty() && format != FileFormat::merl && format != FileFormat::rgl) refuse(format, head, name);
+  };
+  const std::vector<std::byte> bytes = base::read_file(file, options.limits.max_file_bytes, check_head);
+  return read_measurement(bytes, name, options);
 }
 
 }  // namespace brdf

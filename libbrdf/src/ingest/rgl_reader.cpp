@@ -46,6 +46,19 @@ void refuse_anisotropic(const TensorFile& file) {
   }
 }
 
+/// Fields may lie on the same bytes, so that the size of the file says little about the sum of the tables.
+void check_memory(const TensorFile& file, const IngestLimits& limits) {
+  std::uint64_t values = 0;
+  for (const char* name : {"theta_i", "ndf", "sigma", "vndf", "rgb"})
+    if (const TensorField* field = file.find(name)) values += std::min(field->count, limits.max_table_values + 1);
+  if (const TensorField* rgb = file.find("rgb")) values += std::min(rgb->count, limits.max_table_values + 1);  // reordered
+  if (values > limits.max_temporary_bytes / sizeof(float)) {
+    throw Error(ErrorCode::limit_exceeded, file.name() + ": reading its tables takes memory for " + std::to_string(values) +
+                                               " values of 4 bytes, the limit is " +
+                                               std::to_string(limits.max_temporary_bytes) + " bytes");
+  }
+}
+
 std::vector<float> read_elevations(const TensorFile& file) {
   const TensorField& field = file.require("theta_i", TensorType::f32, 1);
   if (field.count == 0) throw malformed(file, field, "is empty, at least one elevation is needed");
@@ -136,6 +149,7 @@ RglMaterial read_rgl(std::span<const std::byte> bytes, const std::string& name, 
   const TensorFile file(bytes, name, options.limits);
   refuse_what_is_not_read_yet(file);
   refuse_anisotropic(file);
+  check_memory(file, options.limits);
 
   RglMaterial material;
   VisibleNormalTable& t = material.table;

@@ -73,6 +73,17 @@ std::size_t grid_bytes(const GridSize& size, Azimuth azimuth, int channels) noex
   return (nodes * static_cast<std::size_t>(channels) + 8) * sizeof(std::uint16_t);
 }
 
+std::size_t reconstruct_temporary_bytes(const Coefficients& c, const GridSize& size) noexcept {
+  const Extent reach = extent(c.order);
+  const auto k = static_cast<std::size_t>(std::max(reach.k, 1)), l = static_cast<std::size_t>(std::max(reach.l, 1)),
+             m = static_cast<std::size_t>(std::max(reach.m, 1)), channels = static_cast<std::size_t>(c.channels);
+  const std::size_t h = padded(static_cast<std::size_t>(size.n_h)), d = padded(static_cast<std::size_t>(size.n_d)),
+                    p = padded(static_cast<std::size_t>(phi_nodes(size, c.azimuth)));
+  const std::size_t axes = h * (k + m) + d * (l + m) + p * m + k + l + m, sums = m * l * h + m * d + m * l;
+  return (axes + sums + c.order.size()) * sizeof(float) + static_cast<std::size_t>(size.n_h) * static_cast<std::size_t>(size.n_d) * p * sizeof(std::uint16_t) +
+         channels * channels * sizeof(double);
+}
+
 ResidualGrid reconstruct(const Coefficients& c, const GridSize& size) {
   const Basis basis = basis_of(c.basis);
   const int np = phi_nodes(size, c.azimuth);

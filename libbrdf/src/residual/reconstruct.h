@@ -36,6 +36,9 @@ inline constexpr GridSize exact_grid{128, 64, 49};
 /// Bytes of the table for a size.
 std::size_t grid_bytes(const GridSize& size, Azimuth azimuth, int channels) noexcept;
 
+/// Bytes that reconstruct takes at most beside its result.
+std::size_t reconstruct_temporary_bytes(const Coefficients& c, const GridSize& size) noexcept;
+
 /// Evaluates the basis on the nodes; `c` is in half/difference coordinates.
 ResidualGrid reconstruct(const Coefficients& c, const GridSize& size);
 

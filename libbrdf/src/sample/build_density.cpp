@@ -121,6 +121,8 @@ std::shared_ptr<const Material::Sampling> build_density(const LobeSet& lobes, co
   return sampling;
 }
 
+std::uint64_t build_density_temporary_bytes(int channels) noexcept { return DensityNodes::temporary_bytes(channels); }
+
 NodeDensities node_densities(const Material::Sampling& tables) {
   NodeDensities nodes;
   const auto add = [&nodes](const Table& t) {
@@ -135,8 +137,6 @@ NodeDensities node_densities(const Material::Sampling& tables) {
 }
 
 std::shared_ptr<const Material::Sampling> density_from_nodes(const LobeSet& lobes, const NodeDensities& nodes) {
-  const bool retro = std::any_of(lobes.lobes.begin(), lobes.lobes.end(), [](const Lobe& l) { return l.kind == LobeKind::retro_ggx; });
-  if (nodes.components.size() != (retro ? 2U : 1U)) return nullptr;
   auto sampling = std::make_shared<Material::Sampling>();
   const auto fill = [](double alpha, const std::vector<double>& density, Table& t) {
     place_edges(alpha, t);
@@ -145,7 +145,7 @@ std::shared_ptr<const Material::Sampling> density_from_nodes(const LobeSet& lobe
     fill_table(table, t);
   };
   fill(narrowest(lobes, LobeKind::ggx), nodes.components[0], sampling->front);
-  if (!retro) return sampling;
+  if (nodes.components.size() < 2) return sampling;
   fill(narrowest(lobes, LobeKind::retro_ggx), nodes.components[1], sampling->back.emplace());
   for (std::size_t k = 0; k < Table::views; ++k)
     sampling->back_share[k] = static_cast<float>(std::clamp(nodes.second[k], least_share, 1 - least_share));

@@ -82,6 +82,14 @@ std::vector<DensityNodes::Probe> DensityNodes::probes(std::size_t parts) const {
   return all;
 }
 
+std::uint64_t DensityNodes::temporary_bytes(int channels) noexcept {
+  constexpr std::uint64_t heights = 2 * row_cells + 3, wide = Table::columns * heights, close = 2 * wide, planes = 6;
+  constexpr std::uint64_t per_probe = sizeof(Probe) + sizeof(Vec3d) + 2 * sizeof(double);
+  const std::uint64_t evaluated = close * (planes + static_cast<std::uint64_t>(channels)) * sizeof(float);
+  // lists grow by doubling
+  return 2 * (wide + close) * sizeof(Probe) + close * per_probe + evaluated + 2 * Table::views * per_view * sizeof(double);
+}
+
 DensityNodes::DensityNodes(const Table& table) : density_(Table::views * per_view) {
   for (std::size_t i = 0; i < edges; ++i) edge_[i] = static_cast<double>(table.edge[i]);
   for (std::size_t i = 0; i < row_cells; ++i) width_[i] = edge_[i + 1] - edge_[i];

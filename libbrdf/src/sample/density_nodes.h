@@ -7,6 +7,7 @@
 
 #include <array>
 #include <cstddef>
+#include <cstdint>
 #include <span>
 #include <vector>
 
@@ -22,6 +23,9 @@ class DensityNodes {
   static constexpr std::size_t edges = row_cells + 1, per_view = Table::rows_per_view * edges;
 
   explicit DensityNodes(const Table& table);
+
+  /// Most bytes that one of these takes with its work, or two components of densities that are assigned.
+  static std::uint64_t temporary_bytes(int channels) noexcept;
 
   /// Follows `f` at the nodes. Each view's integral becomes 1; it keeps the integral of f before.
   void tabulate(Integrand& f);

@@ -22,8 +22,8 @@ struct NodeDensities {
 
 NodeDensities node_densities(const Material::Sampling& tables);
 
-/// The tables that such densities make, normalised. `lobes` are the material's own. Null where their number of components
-/// is not that of the lobes.
+/// The tables that such densities make, normalised. `lobes` are the material's own: two components where some are
+/// retro-reflective, else one.
 std::shared_ptr<const Material::Sampling> density_from_nodes(const LobeSet& lobes, const NodeDensities& nodes);
 
 }  // namespace brdf::sample

@@ -10,8 +10,6 @@ namespace {
 
 using std::numbers::pi;
 
-constexpr std::size_t sigma_nodes = 129;
-
 double elevation_of(double u) noexcept { return u * u * (pi / 2); }
 
 /// t in [0, 1] where the integral of the line from a to b reaches `wanted`.

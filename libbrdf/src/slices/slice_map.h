@@ -87,6 +87,9 @@ class SliceMap {
   std::vector<Row> row_;                   ///< [slice][row]
 };
 
+/// Nodes of sigma over u_i.
+inline constexpr std::size_t sigma_nodes = 129;
+
 /// Angles of a pair of unit vectors above the horizon.
 SliceAngles slice_angles(double ix, double iy, double iz, double ox, double oy, double oz) noexcept;
 

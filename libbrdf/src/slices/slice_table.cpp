@@ -6,19 +6,27 @@
 #include "slices/axis_sums.h"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
+#include <utility>
 
 namespace brdf::slices {
 namespace {
 
 constexpr float largest_exponent = 80.0f;
+constexpr std::size_t padding = 8;  // floats behind the values, for vectors
+constexpr std::size_t block = 256;  // nodes
+
+std::size_t nodes_of(const residual::SliceFrame& f) noexcept {
+  return f.theta_i.size() * static_cast<std::size_t>(f.half_height()) * f.width;
+}
 
 }  // namespace
 
 SliceTable::SliceTable(const residual::Coefficients& c)
     : map_(c.slices), width_(c.slices.width), half_height_(static_cast<std::size_t>(c.slices.half_height())), height_(c.slices.height),
       channels_(static_cast<std::size_t>(c.channels)) {
-  const std::size_t slices = map_.slices(), nodes = slices * half_height_ * width_;
+  const std::size_t slices = map_.slices(), nodes = nodes_of(c.slices);
   const std::vector<double> matrix = residual::channel_matrix(c.transform, c.channels);
   const auto epsilon = static_cast<float>(residual::epsilon_of(c.slices.epsilon));
   std::vector<std::vector<float>> transformed;
@@ -28,17 +36,26 @@ SliceTable::SliceTable(const residual::Coefficients& c)
       cube[(c.order[j].m * half_height_ + c.order[j].l) * width_ + c.order[j].k] = values[j];
     cube = cosine_sums(cube, 1, slices, half_height_ * width_);
     cube = cosine_sums(cube, slices, half_height_, width_);
-    transformed.push_back(cosine_sums(cube, slices * half_height_, width_, 1));
+    cube = cosine_sums(cube, slices * half_height_, width_, 1);
+    cube.resize((nodes + block - 1) / block * block);
+    transformed.push_back(std::move(cube));
   }
   for (std::size_t i = 0; i < slices; ++i) theta_i_.push_back(static_cast<float>(map_.theta_i(i)));
   for (std::size_t i = 0; i + 1 < slices; ++i) per_radian_.push_back(static_cast<float>(1 / (map_.theta_i(i + 1) - map_.theta_i(i))));
   per_radian_.push_back(0.0f);
-  values_.resize(nodes * channels_ + 8);
-  for (std::size_t n = 0; n < nodes; ++n)
+  values_.resize(nodes * channels_ + padding);
+  // nodes times the square of the channels, both chosen by the file: block by block, so that what is read stays in a cache
+  std::array<float, block> sum;
+  for (std::size_t first = 0; first < nodes; first += block)
     for (std::size_t ch = 0; ch < channels_; ++ch) {
-      float y = 0;
-      for (std::size_t t = 0; t < channels_; ++t) y += static_cast<float>(matrix[t * channels_ + ch]) * transformed[t][n];
-      values_[n * channels_ + ch] = std::max(std::exp(std::clamp(y, -largest_exponent, largest_exponent)) - epsilon, 0.0f);
+      sum.fill(0.0f);
+      for (std::size_t t = 0; t < channels_; ++t) {
+        const auto weight = static_cast<float>(matrix[t * channels_ + ch]);
+        const float* from = transformed[t].data() + first;
+        for (std::size_t n = 0; n < block; ++n) sum[n] += weight * from[n];
+      }
+      for (std::size_t n = 0; n < std::min(block, nodes - first); ++n)
+        values_[(first + n) * channels_ + ch] = std::max(std::exp(std::clamp(sum[n], -largest_exponent, largest_exponent)) - epsilon, 0.0f);
     }
 }
 
@@ -68,6 +85,20 @@ std::size_t SliceTable::bytes() const noexcept {
          (values_.size() + theta_i_.size() + per_radian_.size()) * sizeof(float);
 }
 
+std::size_t SliceTable::bytes_of(const residual::SliceFrame& f, int channels) noexcept {
+  const std::size_t slices = f.theta_i.size(), rows = slices * ((f.rows + 1U) / 2U), columns = f.ndf.size();
+  return rows * columns * sizeof(SliceMap::Sample) + rows * sizeof(SliceMap::Row) +
+         (columns + sigma_nodes + nodes_of(f) * static_cast<std::size_t>(channels) + padding + 2 * slices) * sizeof(float);
+}
+
+std::size_t SliceTable::temporary_bytes_of(const residual::SliceFrame& f, int channels) noexcept {
+  const auto n = static_cast<std::size_t>(channels);
+  const std::size_t longest = std::max({f.theta_i.size(), static_cast<std::size_t>(f.half_height()), static_cast<std::size_t>(f.width)});
+  // the cosines of all channels and a cube before and after a sum; rows of the map
+  return (nodes_of(f) + block) * (n + 3) * sizeof(float) + (longest * longest + longest) * sizeof(float) + n * (n * sizeof(double) + 2 * sizeof(std::vector<float>)) +
+         4 * f.ndf.size() * sizeof(double) + 2 * f.theta_i.size() * sizeof(double);
+}
+
 void SliceTable::eval(const SliceAngles& at, double cos_o, std::span<float> f) const noexcept {
   const SlicePoint p = map_.point(at, cos_o);
   const float x = p.u * static_cast<float>(width_ - 1);
@@ -83,7 +114,7 @@ void SliceTable::eval(const SliceAngles& at, double cos_o, std::span<float> f) c
       return below + fy * (above - below);
     };
     const float lower = square(corner);
-    f[c] = p.scale * (lower + p.fraction * (square(corner + slice) - lower));
+    f[c] = std::min(p.scale * (lower + p.fraction * (square(corner + slice) - lower)), largest_value);
   }
 }
 

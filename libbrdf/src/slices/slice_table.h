@@ -10,6 +10,9 @@
 
 namespace brdf::slices {
 
+/// No f is larger, as with lobes: a file may ask for products beyond float, and quotients with densities must stay finite.
+inline constexpr float largest_value = 1e30f;
+
 /// The numbers of a table for kernels that read them in vectors.
 struct SliceView {
   const float* theta_i = nullptr;    ///< nodes, `slices` of them
@@ -33,6 +36,11 @@ class SliceTable {
 
   SliceView view() const noexcept;
   std::size_t bytes() const noexcept;
+
+  /// bytes() of the table of a frame, before it is made.
+  static std::size_t bytes_of(const residual::SliceFrame& frame, int channels) noexcept;
+  /// What making it takes at most beside that.
+  static std::size_t temporary_bytes_of(const residual::SliceFrame& frame, int channels) noexcept;
 
  private:
   SliceMap map_;
