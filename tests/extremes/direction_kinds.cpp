@@ -84,7 +84,7 @@ DirectionKind mirrored() {
 DirectionKind degenerate_half() {
   DirectionKind k{"opposite at the horizon: wi + wo almost 0", {}, {}};
   for (const double phi : usual_phis)
-    for (const float z : {1e-3f, 1e-5f, 1e-7f, 1e-9f, 1e-11f})
+    for (const float z : {1e-3f, 1e-5f, 1e-7f, 1e-9f})
       for (const float turn : {0.0f, 1e-7f, 1e-5f, 1e-3f}) {
         const auto at = [&](double azimuth, float cosine) {
           const double sine = std::sqrt(1 - static_cast<double>(cosine) * static_cast<double>(cosine));

@@ -12,8 +12,9 @@ namespace {
 using Real = long double;
 constexpr Real pi = std::numbers::pi_v<Real>;
 
-/// The angles of docs/conventions.md, of a pair that need not be normalised. theta_d is half the angle between the
-/// directions in a form that both enter alike.
+/// The angles of docs/conventions.md from s = wi + wo and d = wi - wo, in forms that both directions enter alike:
+/// |s| = 2 cos theta_d, |d| = 2 sin theta_d, wo.z - wi.z = 2 sin theta_h sin theta_d cos phi_d, and the part of s x d along
+/// the normal is 4 sin theta_h sin theta_d cos theta_d sin phi_d.
 struct Angles {
   Real theta_h, theta_d, phi_d;
 };
@@ -21,13 +22,8 @@ struct Angles {
 Angles angles_of(const PairNumbers& p) {
   const Real sx = p[0] + p[3], sy = p[1] + p[4], sz = p[2] + p[5];
   const Real dx = p[0] - p[3], dy = p[1] - p[4], dz = p[2] - p[5];
-  const Real across = std::sqrt(sx * sx + sy * sy), s = std::sqrt(sx * sx + sy * sy + sz * sz);
-  Angles a{std::atan2(across, sz), std::atan2(std::sqrt(dx * dx + dy * dy + dz * dz), s), 0};
-  // d in the frame of h: x' towards increasing theta_h, y' across
-  const Real cx = across > 0 ? sx / across : 1, cy = across > 0 ? sy / across : 0;
-  const Real radial = cx * dx + cy * dy, side = cx * dy - cy * dx;
-  a.phi_d = std::atan2(side, std::cos(a.theta_h) * radial - std::sin(a.theta_h) * dz);
-  return a;
+  const Real s = std::sqrt(sx * sx + sy * sy + sz * sz), d = std::sqrt(dx * dx + dy * dy + dz * dz);
+  return {std::atan2(std::sqrt(sx * sx + sy * sy), sz), std::atan2(d, s), std::atan2(sx * dy - sy * dx, -dz * s)};
 }
 
 Real ggx(const Lobe& lobe, PairNumbers p, std::size_t c) {
@@ -118,9 +114,8 @@ Real reference_ratio(const residual::ResidualGrid& grid, const PairNumbers& p, s
   return sum;
 }
 
-ReferenceResult reference_value(const LobeSet& lobes, const residual::ResidualGrid& grid, const PairNumbers& given, std::size_t c) {
-  if (!(given[2] > 0) || !(given[5] > 0)) return {};
-  const PairNumbers p = normalised(given);
+ReferenceResult reference_value(const LobeSet& lobes, const residual::ResidualGrid& grid, const PairNumbers& p, std::size_t c) {
+  if (!(p[2] > 0) || !(p[5] > 0)) return {};
   const Real lobe_sum = reference_lobes(lobes, p, c);
   if (grid.empty()) return {lobe_sum, lobe_sum};
   const Real epsilon = static_cast<Real>(grid.epsilon), product = (lobe_sum + epsilon) * reference_ratio(grid, p, c);

@@ -2,7 +2,7 @@
 // What a material must evaluate to, in long double: docs/format.md put down literally, with angles and inverse
 // trigonometric functions, and nothing shared with the library but the parameters of lobes and the nodes of a grid.
 //
-// Directions are floats taken as exact numbers and then brought to unit length, since no float direction has it exactly.
+// Directions are floats taken as exact numbers. Hardly any has exactly unit length; the formulas are applied to it as it is.
 #pragma once
 
 #include "residual/residual_grid.h"
@@ -27,16 +27,16 @@ struct ReferenceResult {
   long double value = 0, scale = 0;
 };
 
-/// Normalises both directions.
+/// Both directions brought to unit length.
 PairNumbers normalised(PairNumbers p);
 
-/// Channel c of the sum of the lobes; `p` as it is, normalised or not.
+/// Channel c of the sum of the lobes.
 long double reference_lobes(const LobeSet& lobes, const PairNumbers& p, std::size_t c);
 
 /// Trilinear ratio of channel c.
 long double reference_ratio(const residual::ResidualGrid& grid, const PairNumbers& p, std::size_t c);
 
-/// f_c of lobes and grid (which may be empty), 0 at or below the horizon. Normalises.
+/// f_c of lobes and grid (which may be empty), 0 at or below the horizon.
 ReferenceResult reference_value(const LobeSet& lobes, const residual::ResidualGrid& grid, const PairNumbers& p, std::size_t c);
 
 /// Backward error of `computed` in float ulps: an upper bound of the smallest k such that the reference gives `computed`,
@@ -46,6 +46,6 @@ ReferenceResult reference_value(const LobeSet& lobes, const residual::ResidualGr
 /// The reference is continuous above the horizon, so it takes every value between two that it takes: it is enough to find
 /// one perturbation that gives more and one that gives less.
 double backward_error(const LobeSet& lobes, const residual::ResidualGrid& grid, const Vec3f& wi, const Vec3f& wo, std::size_t c,
-                      float computed, double roundings, double most = 1024);
+                      float computed, double roundings, double most = 64);
 
 }  // namespace brdf::test

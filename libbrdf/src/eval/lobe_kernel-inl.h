@@ -66,17 +66,17 @@ HWY_INLINE V schlick_weights(V cos_theta_d) {
   return hn::Mul(hn::Mul(m2, m2), m);
 }
 
-/// |s|^4 / (2 pi): what the normal distributions of all lobes with one half vector share.
+/// |s|^4 / (2 pi), scaled: what the normal distributions of all lobes with one half vector share.
 HWY_INLINE V ndf_numerator(V in_plane, V s_z2) {
-  constexpr float half_inv_pi = static_cast<float>(0.5 * std::numbers::inv_pi);
+  constexpr float scaled_half_inv_pi = static_cast<float>(0.5 * std::numbers::inv_pi) * ndf_scale * ndf_scale;
   const V s2 = hn::Add(in_plane, s_z2);
-  return hn::Mul(hn::Mul(s2, s2), set(half_inv_pi));
+  return hn::Mul(hn::Mul(s2, s2), set(scaled_half_inv_pi));
 }
 
 /// numerator / (denominator^2 divisor) of one lobe.
 HWY_INLINE V guarded_quotient(const GgxLobe& g, V numerator, V in_plane, V s_z2, V divisor) {
   const V den = hn::MulAdd(in_plane, set(g.inv_alpha), hn::Mul(s_z2, set(g.alpha)));
-  return quotient(numerator, hn::Max(hn::Mul(hn::Mul(den, den), divisor), set(min_denominator)));
+  return hn::Min(quotient(numerator, hn::Max(hn::Mul(hn::Mul(den, den), divisor), set(min_denominator))), set(g.most));
 }
 
 /// sqrt(alpha^2 + (1 - alpha^2) cos^2)
