@@ -42,7 +42,7 @@ std::string group_of(bool with_grid) { return with_grid ? "Directions, lobes and
 /// One bound for each kind of directions.
 std::deque<NumericBound> declare(bool with_grid) {
   std::deque<NumericBound> all;
-  for (const DirectionKind& kind : direction_kinds()) all.emplace_back(group_of(with_grid), kind.name, "ulp, backward", 4);
+  for (const DirectionKind& kind : direction_kinds()) all.emplace_back(group_of(with_grid), kind.name, "ulp, backward", with_grid ? 16 : 4);
   return all;
 }
 

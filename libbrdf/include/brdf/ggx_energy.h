@@ -12,7 +12,7 @@ namespace brdf {
 /// Physically Based Shading at Imageworks). The lobes of the format have no such term: what a rough lobe loses there is
 /// part of what was fitted. It is for materials that are given by formulas.
 ///
-/// Losses are tabulated over the cosine by quadrature over the visible normals: within 2e-4 (absolute). Immutable after
+/// Losses are tabulated over the cosine by quadrature over the visible normals: within 3e-4 (absolute). Immutable after
 /// construction and thread-safe.
 class GgxEnergy {
  public:
@@ -39,7 +39,7 @@ class GgxEnergy {
  private:
   static constexpr std::size_t nodes = 97;
   std::array<double, nodes> loss_{};
-  double alpha_, mean_loss_ = 0;
+  double alpha_, range_, mean_loss_ = 0;
 };
 
 /// Cosine-weighted mean of Schlick's f0 + (f90 - f0) (1 - cos theta)^5 over the hemisphere: (20 f0 + f90) / 21.

@@ -54,7 +54,7 @@ double loss_by_quadrature(double mu, double alpha) {
     return lambda_i / (1 + lambda_o + lambda_i);
   };
   double sum = 0;
-  // phi = (pi / 2) (1 -+ t^2): near the horizon everything changes within mu of a right angle
+  // nodes crowd, by squares, at right angles to the view, where all changes within mu of it, and at the horizon
   for (const double side : {1.0, -1.0})
     for (std::size_t i = 0; i < rule.x.size(); ++i) {
       const double t = rule.x[i], cos_phi = side * std::sin(half_turn * t * t), x = sine * cos_phi, r = std::hypot(mu, x);
@@ -65,38 +65,38 @@ double loss_by_quadrature(double mu, double alpha) {
           const double s = std::sin(v);
           return rule.weight[j] * (sine * alpha * s * s * cos_phi + mu * s * std::cos(v)) * share;
         };
-        const double above = horizon * rule.x[j], below = horizon + (seen - horizon) * rule.x[j];
-        sum += rule.weight[i] * t * lobes::pi * (horizon * at(above, lost(above, cos_phi)) + (seen - horizon) * at(below, 1));
+        const double rest = 1 - rule.x[j], above = horizon * (1 - rest * rest), below = horizon + (seen - horizon) * rule.x[j];
+        sum += rule.weight[i] * t * lobes::pi * (2 * horizon * rest * at(above, lost(above, cos_phi)) + (seen - horizon) * at(below, 1));
       }
     }
   return density * sum;
 }
 
-/// Nodes over x = sqrt(mu (1 + alpha) / (mu + alpha)): losses rise from the horizon within cosines of about alpha.
-double position_of(double mu, double alpha) noexcept { return std::sqrt(mu * (1 + alpha) / (mu + alpha)); }
-double cosine_at(double x, double alpha) noexcept { return alpha * x * x / (1 + alpha - x * x); }
+/// Nodes over x = sqrt(log(1 + mu / alpha) / log(1 + 1 / alpha)): losses rise from the horizon within cosines of about
+/// alpha and fall from there to 1 as a power.
+double cosine_at(double x, double alpha, double range) noexcept { return alpha * std::expm1(x * x * range); }
 
 }  // namespace
 
-GgxEnergy::GgxEnergy(double alpha) : alpha_(alpha) {
+GgxEnergy::GgxEnergy(double alpha) : alpha_(alpha), range_(std::log1p(1 / alpha)) {
   if (!(alpha >= lobes::min_alpha && alpha <= lobes::max_alpha))
     throw Error(ErrorCode::invalid_argument, "GgxEnergy: alpha is " + std::to_string(alpha) + ", allowed is 1e-5 to 1.");
   const auto last = static_cast<double>(nodes - 1);
   // at the horizon nothing is lost: all visible normals reflect upwards, and Lambda_o is infinite
   for (std::size_t i = 1; i < nodes; ++i)
-    loss_[i] = loss_by_quadrature(std::min(cosine_at(static_cast<double>(i) / last, alpha), 1.0), alpha);
+    loss_[i] = loss_by_quadrature(std::min(cosine_at(static_cast<double>(i) / last, alpha, range_), 1.0), alpha);
   // of the interpolated losses, so that the compensation returns exactly what they miss
   static const GaussRule<6> rule;
   for (std::size_t i = 0; i + 1 < nodes; ++i)
     for (std::size_t k = 0; k < rule.x.size(); ++k) {
-      const double x = (static_cast<double>(i) + rule.x[k]) / last, mu = cosine_at(x, alpha), rest = 1 + alpha - x * x;
-      const double slope = 2 * alpha * (1 + alpha) * x / (rest * rest);  // d mu / d x
+      const double x = (static_cast<double>(i) + rule.x[k]) / last, mu = cosine_at(x, alpha, range_);
+      const double slope = 2 * x * range_ * (alpha + mu);  // d mu / d x
       mean_loss_ += rule.weight[k] / last * slope * 2 * mu * (loss_[i] + rule.x[k] * (loss_[i + 1] - loss_[i]));
     }
 }
 
 double GgxEnergy::loss(double cos_theta) const noexcept {
-  const double x = position_of(std::clamp(cos_theta, 0.0, 1.0), alpha_) * static_cast<double>(nodes - 1);
+  const double x = std::sqrt(std::log1p(std::clamp(cos_theta, 0.0, 1.0) / alpha_) / range_) * static_cast<double>(nodes - 1);
   const auto i = std::min(static_cast<std::size_t>(x), nodes - 2);
   return loss_[i] + (x - static_cast<double>(i)) * (loss_[i + 1] - loss_[i]);
 }
