@@ -24,7 +24,7 @@ namespace {
 
 const char* const group = "Codec";
 
-NumericBound rounding(group, "rounding alone, steps 2^4 to 2^-28: coefficient from its quantised value", "steps", 0.5 + 1e-9);
+NumericBound rounding(group, "first rounding, with its dead zone, steps 2^4 to 2^-28: coefficient from its quantised value", "steps", 0.75);
 NumericBound zero(group, "quantiser at 0: coefficients that are not 0", "count", 0);
 NumericBound saturated(group, "quantiser at saturation: magnitude over the format's largest", "ratio", 1);
 NumericBound coder(group, "coefficients at the coder's limits that come back different", "count", 0);

@@ -1,11 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 // Two thousand random tables: each file is as close as it says.
-#include "container/content.h"
-#include "container/lobe_codes.h"
-#include "encode/basis_choice.h"
-#include "encode/candidate.h"
-#include "encode/effort.h"
-#include "encode/verification.h"
+#include "extremes/one_basis_file.h"
 #include "support/brdfc_content.h"
 #include "support/numeric_bound.h"
 #include "support/small_measurement.h"
@@ -47,7 +42,7 @@ RandomTable random_table(std::uint32_t seed) {
   };
   lobes.lobes.push_back({LobeKind::lambert, 1, 1, color(-4, 0)});
   if (random.below(4) != 0) lobes.lobes.push_back({random.below(4) == 0 ? LobeKind::retro_ggx : LobeKind::ggx, power_of_ten(random, -3, 0), random.unit(), color(-3, 0)});
-  const TableShape shape{static_cast<int>(2 + random.below(9)), static_cast<int>(2 + random.below(5)), static_cast<int>(1 + random.below(8)), random.below(2) == 0};
+  const TableShape shape{static_cast<int>(2 + random.below(9)), static_cast<int>(2 + random.below(5)), static_cast<int>(2 + random.below(8)), random.below(2) == 0};
   const double scale = power_of_ten(random, -6, 6), noise = random.below(3) == 0 ? 2.0 : 0.2 * random.unit();
   const std::uint32_t holes = random.below(3) == 0 ? 4 : 1000;  // one cell in so many
   Measurement m = small_measurement(shape, channels, [&](const Vec3d& wi, const Vec3d& wo, std::span<double> f) {
@@ -60,35 +55,6 @@ RandomTable random_table(std::uint32_t seed) {
   return {std::move(m), std::move(lobes)};
 }
 
-/// Quantised, with the errors measured before it is coded. A whole search takes too long for two thousand tables, so this
-/// takes the first basis, few cells and a random step; table_test.cpp has files of compress().
-container::Content encoded(const Measurement& m, const LobeSet& lobes, const encode::Verification& verification, std::uint32_t seed) {
-  const double epsilon = encode::residual_epsilon(m);
-  const container::Content frame = encode::frame_of(m, container::quantise_lobes(lobes), epsilon, false);
-  encode::EffortStep effort = encode::effort_step(0);
-  effort.bins_h = 10, effort.bins_d = 6, effort.bins_p = 6;
-  const encode::SourceData source(m, frame, effort);
-  const residual::Azimuth azimuth = seed % 2 == 0 ? residual::Azimuth::symmetric : residual::Azimuth::one_way;
-  const auto basis = encode::basis_variants(frame.lobes, epsilon, 1).front();
-  const int step_code = 30 + static_cast<int>(seed % 60);
-  container::Content content = encode::Candidate::half_difference(source, basis, azimuth, 40).encode(step_code, 0.3, 1).content;
-  container::set_symmetries(content.component, content.residual);
-  container::Content alone = content;
-  alone.residual.layers.clear();
-  const auto record = [&](int refinement, EvalLevel level, const ErrorReport& report) {
-    content.errors.push_back({refinement, level, report.log_mae.all, report.psnr_env});
-  };
-  const ErrorReport of_lobes = verification.score(container::pack(alone), EvalLevel::fast);
-  const ErrorReport of_all = verification.score(container::pack(content), EvalLevel::balanced);
-  content.errors.clear();
-  record(0, EvalLevel::fast, of_lobes);
-  if (!content.residual.empty()) {
-    record(1, EvalLevel::balanced, of_all);
-    content.errors.push_back({1, EvalLevel::exact, std::nan(""), std::nan("")});  // not recorded
-  }
-  return content;
-}
-
 TEST(PromiseSlow, TwoThousandTablesDecodeWithinTheRecordedError) {
   const Vec3f directions[] = {{0, 0, 1}, {0.6F, 0, 0.8F}, {-0.28F, 0.96F * 0.6F, 0.768F}, {0, -0.9999F, 0.0141F}, {1, 0, 1e-6F}};
   double unsound = 0;
@@ -96,7 +62,9 @@ TEST(PromiseSlow, TwoThousandTablesDecodeWithinTheRecordedError) {
     const auto [m, lobes] = random_table(seed);
     const auto where = [&] { return "seed " + std::to_string(seed); };
     const encode::Verification verification(m, 0.002, 1);
-    const std::vector<std::byte> bytes = container::pack(encoded(m, lobes, verification, seed));
+    const residual::Azimuth azimuth = seed % 2 == 0 ? residual::Azimuth::symmetric : residual::Azimuth::one_way;
+    const container::Content content = one_basis_content(m, lobes, verification, azimuth, 30 + static_cast<int>(seed % 60));
+    const std::vector<std::byte> bytes = container::pack(content);
     DecodeOptions decode;
     decode.sampling = false;
     const Material material = Material::decode(bytes, decode);
