@@ -20,6 +20,7 @@ namespace {
 
 const char* const group = "Tables";
 NumericBound sound(group, "decoded at every level: values that are not finite or negative", "count", 0);
+NumericBound not_numbers(group, "NaN or Inf in a valid cell: tables that are not refused as such", "count", 0);
 NumericBound too_small(group, "tables below 2x2x2 cells that are not refused as such", "count", 0);
 NumericBound promised(group, "log_mae measured again over the recorded one", "ratio", 1);
 NumericBound promised_psnr(group, "psnr_env recorded above the one measured again", "dB", 0);
@@ -174,6 +175,23 @@ TEST(Tables, FewerThanTwoNodesOnAnAxisAreRefused) {
     too_small.see(count, [&] { return std::to_string(s.n_theta_h) + "x" + std::to_string(s.n_theta_d) + "x" + std::to_string(s.n_phi_d); });
   }
   too_small.check();
+}
+
+TEST(Tables, ValidCellsThatAreNoNumbersAreRefused) {
+  double count = 0;
+  for (const float value : {std::numeric_limits<float>::quiet_NaN(), std::numeric_limits<float>::infinity()}) {
+    Measurement m = bumpy_measurement({12, 6, 8});
+    auto& t = std::get<HalfDifferenceTable>(m.table);
+    t.values[3 * valid_cell(t, 40) + 1] = value;
+    try {
+      compress(m);
+      ++count;
+    } catch (const Error& e) {
+      count += e.code() == ErrorCode::invalid_argument && std::string(e.what()).find("is not finite") != std::string::npos ? 0 : 1;
+    }
+    not_numbers.see(count, [&] { return numbers({static_cast<double>(value)}); });
+  }
+  not_numbers.check();
 }
 
 TEST(Tables, WhatHoldsNothingIsRefused) {
