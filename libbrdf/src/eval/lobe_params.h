@@ -16,7 +16,8 @@ namespace brdf::eval {
 inline constexpr int max_ggx_lobes = 16;
 /// Largest reflectance of a lobe.
 inline constexpr double max_reflectance = 1e30;
-/// Largest value of a lobe, 1/sr. The sum of all lobes times the largest ratio of a residual stays below the largest float.
+/// Largest value of a lobe, 1/sr: what is beyond is cut. The sum of all lobes times the largest ratio of a residual stays
+/// below the largest float.
 inline constexpr double max_lobe_value = 1e32;
 inline constexpr double min_alpha = 1e-5;
 
@@ -25,14 +26,14 @@ struct alignas(64) GgxLobe {
   float alpha = ndf_scale, inv_alpha = ndf_scale;  ///< times ndf_scale
   float alpha2 = 1, one_minus_alpha2 = 0;
   float f90 = 1;
-  float most = static_cast<float>(max_lobe_value);  ///< the lobe without colour counts as at most this
+  float least_shadowing = 1e-30f;  ///< smaller ones count as this: no value is above max_lobe_value
   bool retro = false;
   const float* f0 = nullptr;  ///< one value per channel, padded with 0 to padded_channels
 };
 
 /// The same of four lobes, lane by lane; lobes that fill up the last four have no colour.
 struct alignas(64) FourLobes {
-  std::array<float, 4> alpha, inv_alpha, alpha2, one_minus_alpha2, f90, most, retro;  ///< retro: 1 or 0
+  std::array<float, 4> alpha, inv_alpha, alpha2, one_minus_alpha2, f90, least_shadowing, retro;  ///< retro: 1 or 0
 };
 
 struct LobeParams {

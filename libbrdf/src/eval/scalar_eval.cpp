@@ -27,15 +27,12 @@ inline Ndf ndf(const GgxLobe& g, const PairTerms& p) noexcept {
   return {scaled_half_inv_pi * (s2 * s2), in_plane * g.inv_alpha + p.s_z2 * g.alpha};
 }
 
-inline float guarded_quotient(const GgxLobe& g, const Ndf& n, float divisor) noexcept {
-  return std::min(n.numerator / std::max(n.denominator * n.denominator * divisor, min_denominator), g.most);
-}
-
 /// D G2 / (4 cos_i cos_o), with G2 of Heitz 2014, eq. 99: 1 / (2 (co sqrt(a2 + (1 - a2) ci^2) + ci sqrt(...))).
 inline float ggx_value(const GgxLobe& g, const PairTerms& p) noexcept {
   const float shadowing = p.low * std::sqrt(g.alpha2 + g.one_minus_alpha2 * (p.high * p.high)) +
                           p.high * std::sqrt(g.alpha2 + g.one_minus_alpha2 * (p.low * p.low));
-  return guarded_quotient(g, ndf(g, p), shadowing);
+  const Ndf n = ndf(g, p);
+  return n.numerator / (n.denominator * n.denominator * std::max(shadowing, g.least_shadowing));
 }
 
 /// Lobe values apart from colour: f_c = lambert_c + sum f0_kc plain_k + grazing.

@@ -41,8 +41,8 @@ HWY_INLINE void four_lobes(const FourLobes& g, const PairTerms& p, V4 schlick, V
   const V4 of_high = hn::Sqrt(hn::MulAdd(rest, four(p.high * p.high), alpha2));
   const V4 of_low = hn::Sqrt(hn::MulAdd(rest, four(p.low * p.low), alpha2));
   const V4 shadowing = hn::MulAdd(four(p.low), of_high, hn::Mul(four(p.high), of_low));
-  const V4 divisor = hn::Max(hn::Mul(hn::Mul(den, den), shadowing), four(min_denominator));
-  const V4 value = hn::Min(hn::Div(hn::Mul(hn::Mul(s2, s2), four(scaled_half_inv_pi)), divisor), four(g.most));
+  const V4 divisor = hn::Mul(hn::Mul(den, den), hn::Max(shadowing, four(g.least_shadowing)));
+  const V4 value = hn::Div(hn::Mul(hn::Mul(s2, s2), four(scaled_half_inv_pi)), divisor);
   // lane 0 of schlick is for reflection lobes, lane 1 for retro lobes
   const V4 fresnel = hn::IfThenElse(retro, hn::Broadcast<1>(schlick), hn::Broadcast<0>(schlick));
   const V4 bent = hn::Mul(value, fresnel);
