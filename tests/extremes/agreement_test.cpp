@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 // The same answers from every instruction set and any number of threads. Optimisation levels: compare_builds.py.
-#include "extremes/direction_kinds.h"
+#include "support/direction_kinds.h"
 #include "extremes/smooth_grid.h"
 #include "support/numeric_bound.h"
 #include "support/simd_targets.h"
@@ -63,7 +63,7 @@ TEST(Agreement, InstructionSets) {
   grid_differ.check();
 }
 
-TEST(Agreement, ThreadsAndInstructionSetsWriteTheSameBytes) {
+TEST(AgreementSlow, ThreadsAndInstructionSetsWriteTheSameBytes) {
   double different = 0;
   for (const Measurement& m : {bumpy_measurement({12, 6, 8}), bumpy_measurement({9, 7, 10, true}, 4, 0.4)}) {
     EncodeOptions options;

@@ -63,7 +63,8 @@ TEST(Codec, QuantiserAtZeroAndAtSaturation) {
       for (const int passes : {0, 2})
         for (const auto& channel : encode::quantise(model, beyond, order, true, {step, 1, passes}).q)
           for (const std::int32_t v : channel)
-            saturated.see(std::fabs(static_cast<double>(v)) / limit, [&] { return "step code " + std::to_string(code) + ", coefficients times " + numbers({factor}); });
+            saturated.see(std::fabs(static_cast<double>(v)) / limit,
+                          [&] { return "step code " + std::to_string(code) + ", coefficients times " + numbers({factor}); });
     }
   }
   zero.check();

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 // f where directions are special: float evaluation, one pair and batches, on every instruction set, against long double.
-#include "extremes/direction_kinds.h"
+#include "support/direction_kinds.h"
 #include "extremes/long_double_reference.h"
 #include "extremes/smooth_grid.h"
 #include "support/numeric_bound.h"

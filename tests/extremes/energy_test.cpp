@@ -126,6 +126,8 @@ TEST(Energy, CompensationIsSymmetricAndBlackBelowTheHorizon) {
     }
   EXPECT_EQ(energy.compensation(0, 0.5), 0);
   EXPECT_EQ(energy.compensation(0.5, -0.1), 0);
+  EXPECT_EQ(energy.compensation(0.5, std::nan("")), 0);
+  EXPECT_EQ(energy.albedo(std::nan("")), 1);
   EXPECT_EQ(energy.compensation_color(1), 1);
   EXPECT_EQ(energy.compensation_color(0), 0);
   EXPECT_LT(energy.compensation_color(0.5), 0.5);

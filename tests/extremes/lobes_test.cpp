@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 // Single lobes from mirrors to the roughest surface, across their peaks, on every instruction set, against long double.
-#include "extremes/direction_kinds.h"
+#include "support/direction_kinds.h"
 #include "extremes/long_double_reference.h"
 #include "support/numeric_bound.h"
 #include "support/simd_targets.h"

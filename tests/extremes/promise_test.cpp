@@ -41,8 +41,16 @@ RandomTable random_table(std::uint32_t seed) {
     return c;
   };
   lobes.lobes.push_back({LobeKind::lambert, 1, 1, color(-4, 0)});
-  if (random.below(4) != 0) lobes.lobes.push_back({random.below(4) == 0 ? LobeKind::retro_ggx : LobeKind::ggx, power_of_ten(random, -3, 0), random.unit(), color(-3, 0)});
-  const TableShape shape{static_cast<int>(2 + random.below(9)), static_cast<int>(2 + random.below(5)), static_cast<int>(2 + random.below(8)), random.below(2) == 0};
+  if (random.below(4) != 0) {
+    const LobeKind kind = random.below(4) == 0 ? LobeKind::retro_ggx : LobeKind::ggx;
+    const double alpha = power_of_ten(random, -3, 0), f90 = random.unit();
+    lobes.lobes.push_back({kind, alpha, f90, color(-3, 0)});
+  }
+  TableShape shape;
+  shape.n_theta_h = static_cast<int>(2 + random.below(9));
+  shape.n_theta_d = static_cast<int>(2 + random.below(5));
+  shape.n_phi_d = static_cast<int>(2 + random.below(8));
+  shape.full_circle = random.below(2) == 0;
   const double scale = power_of_ten(random, -6, 6), noise = random.below(3) == 0 ? 2.0 : 0.2 * random.unit();
   const std::uint32_t holes = random.below(3) == 0 ? 4 : 1000;  // one cell in so many
   Measurement m = small_measurement(shape, channels, [&](const Vec3d& wi, const Vec3d& wo, std::span<double> f) {

@@ -96,7 +96,8 @@ GgxEnergy::GgxEnergy(double alpha) : alpha_(alpha), range_(std::log1p(1 / alpha)
 }
 
 double GgxEnergy::loss(double cos_theta) const noexcept {
-  const double x = std::sqrt(std::log1p(std::clamp(cos_theta, 0.0, 1.0) / alpha_) / range_) * static_cast<double>(nodes - 1);
+  const double mu = std::min(std::max(0.0, cos_theta), 1.0);  // NaN gives 0
+  const double x = std::sqrt(std::log1p(mu / alpha_) / range_) * static_cast<double>(nodes - 1);
   const auto i = std::min(static_cast<std::size_t>(x), nodes - 2);
   return loss_[i] + (x - static_cast<double>(i)) * (loss_[i + 1] - loss_[i]);
 }

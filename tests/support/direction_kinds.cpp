@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "extremes/direction_kinds.h"
+#include "support/direction_kinds.h"
 
 #include "support/numeric_bound.h"
 
