@@ -24,6 +24,12 @@ if(TARGET brdf-compress AND TARGET brdf-gonio)
   set_tests_properties(bench.baseline PROPERTIES LABELS bench RUN_SERIAL TRUE ENVIRONMENT "${test_environment}")
 endif()
 
+if(TARGET brdf_extremes_tests)
+  add_test(NAME source.numerics_page
+    COMMAND "${Python3_EXECUTABLE}" "${PROJECT_SOURCE_DIR}/tools/measure-numerics" --check $<TARGET_FILE:brdf_extremes_tests>)
+  set_tests_properties(source.numerics_page PROPERTIES LABELS source)
+endif()
+
 set(check_includes "${CMAKE_CURRENT_SOURCE_DIR}/support/check_includes.py")
 add_test(NAME source.rules COMMAND "${Python3_EXECUTABLE}" "${check_includes}" "${PROJECT_SOURCE_DIR}")
 add_test(NAME source.rules_catch_violations COMMAND "${Python3_EXECUTABLE}" "${check_includes}" --self-test)

@@ -74,8 +74,8 @@ struct EncodeResult {
   EncodeSummary summary;
 };
 
-/// Compresses. Throws Error: invalid_argument, no_data, cancelled, target_not_met (its sentence says the best
-/// reachable value). Deterministic for any number of threads and any instruction set.
+/// Compresses. Values of valid cells must be finite. Throws Error: invalid_argument, no_data, cancelled, target_not_met
+/// (its sentence says the best reachable value). Deterministic for any number of threads and any instruction set.
 EncodeResult compress(const Measurement& m, const EncodeOptions& options = {}, const Progress& progress = {});
 
 }  // namespace brdf

@@ -16,7 +16,9 @@
 #include <brdf/encode.h>
 #include <brdf/error.h>
 
+#include <algorithm>
 #include <chrono>
+#include <cmath>
 #include <cstdio>
 
 namespace brdf {
@@ -56,6 +58,16 @@ FitOptions fit_options(const EffortStep& effort, int threads) {
   o.max_iterations = effort.fit_iterations;
   o.threads = threads;
   return o;
+}
+
+/// Readers mask what is no number, but a measurement may come from elsewhere.
+void check_values(const Measurement& m) {
+  const auto* cells = std::get_if<HalfDifferenceTable>(&m.table);
+  const std::vector<float>& values = cells != nullptr ? cells->values : std::get<VisibleNormalTable>(m.table).values;
+  const auto channels = static_cast<std::size_t>(std::max(m.channels.count, 1));
+  for (std::size_t i = 0; i < values.size(); ++i)
+    if (!std::isfinite(values[i]) && (cells == nullptr || (i / channels < cells->valid.size() && cells->valid[i / channels] != 0)))
+      throw Error(ErrorCode::invalid_argument, "compress: value " + std::to_string(i) + " of the measurement is not finite, and its cell is valid");
 }
 
 /// What the search for this file lowered; larger is better.
@@ -112,6 +124,7 @@ namespace {
 EncodeResult compress_without_cdf(const Measurement& m, const EncodeOptions& options, const Progress& progress) {
   std::string why;
   if (!options.is_valid(&why)) throw Error(ErrorCode::invalid_argument, "compress: " + why);
+  check_values(m);
   const Stages stages(progress);
   const EffortStep& effort = encode::effort_step(options.effort);
   using Clock = std::chrono::steady_clock;

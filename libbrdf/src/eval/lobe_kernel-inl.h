@@ -66,17 +66,17 @@ HWY_INLINE V schlick_weights(V cos_theta_d) {
   return hn::Mul(hn::Mul(m2, m2), m);
 }
 
-/// |s|^4 / (2 pi): what the normal distributions of all lobes with one half vector share.
+/// |s|^4 / (2 pi), scaled: what the normal distributions of all lobes with one half vector share.
 HWY_INLINE V ndf_numerator(V in_plane, V s_z2) {
-  constexpr float half_inv_pi = static_cast<float>(0.5 * std::numbers::inv_pi);
+  constexpr float scaled_half_inv_pi = static_cast<float>(0.5 * std::numbers::inv_pi) * ndf_scale * ndf_scale;
   const V s2 = hn::Add(in_plane, s_z2);
-  return hn::Mul(hn::Mul(s2, s2), set(half_inv_pi));
+  return hn::Mul(hn::Mul(s2, s2), set(scaled_half_inv_pi));
 }
 
 /// numerator / (denominator^2 divisor) of one lobe.
-HWY_INLINE V guarded_quotient(const GgxLobe& g, V numerator, V in_plane, V s_z2, V divisor) {
+HWY_INLINE V ndf_quotient(const GgxLobe& g, V numerator, V in_plane, V s_z2, V divisor) {
   const V den = hn::MulAdd(in_plane, set(g.inv_alpha), hn::Mul(s_z2, set(g.alpha)));
-  return quotient(numerator, hn::Max(hn::Mul(hn::Mul(den, den), divisor), set(min_denominator)));
+  return quotient(numerator, hn::Mul(hn::Mul(den, den), divisor));
 }
 
 /// sqrt(alpha^2 + (1 - alpha^2) cos^2)
@@ -93,7 +93,7 @@ HWY_INLINE void for_lobes(const LobeParams& lobes, std::size_t first, std::size_
   for (std::size_t k = first; k < last; ++k) {
     const GgxLobe& g = lobes.ggx[k];
     const V shadowing = hn::MulAdd(p.low, slope_length(g, high2), hn::Mul(p.high, slope_length(g, low2)));
-    const V value = guarded_quotient(g, numerator, in_plane, p.s_z2, shadowing);
+    const V value = ndf_quotient(g, numerator, in_plane, p.s_z2, hn::Max(shadowing, set(g.least_shadowing)));
     const V bent = hn::Mul(value, fresnel);
     grazing = hn::MulAdd(set(g.f90), bent, grazing);
     each(k, hn::Sub(value, bent));

@@ -4,6 +4,7 @@
 #include <brdf/error.h>
 #include <brdf/limits.h>
 
+#include <algorithm>
 #include <cmath>
 #include <cstddef>
 #include <numbers>
@@ -51,6 +52,7 @@ std::vector<FourLobes> in_fours(const std::vector<GgxLobe>& ggx) {
     four.alpha2[lane] = g.alpha2;
     four.one_minus_alpha2[lane] = g.one_minus_alpha2;
     four.f90[lane] = g.f90;
+    four.least_shadowing[lane] = g.least_shadowing;
     four.retro[lane] = g.retro ? 1.0f : 0.0f;
   }
   return fours;
@@ -78,14 +80,18 @@ LobeParams::LobeParams(const LobeSet& set) : channels(set.channels) {
   const auto add_ggx = [this, n](const Lobe& lobe) {
     const double a = lobe.alpha;
     GgxLobe g;
-    g.alpha = static_cast<float>(a);
-    g.inv_alpha = static_cast<float>(1 / a);
+    g.alpha = static_cast<float>(a) * ndf_scale;
+    g.inv_alpha = static_cast<float>(1 / a) * ndf_scale;
     g.alpha2 = static_cast<float>(a * a);
     g.one_minus_alpha2 = static_cast<float>(1 - a * a);
-    g.f90 = static_cast<float>(lobe.f90);
+    // D is at most 1 / (pi alpha^2); a larger denominator than with this floor would leave the range of float
+    const double largest_floor = 100, per_shadowing = 0.5 * std::numbers::inv_pi / (a * a * max_lobe_value);
+    const double largest = std::min(std::max(lobe.f90, *std::max_element(lobe.color.begin(), lobe.color.end())), largest_floor / per_shadowing);
+    g.least_shadowing = static_cast<float>(std::max(largest, 1.0) * per_shadowing);
+    g.f90 = static_cast<float>(std::min(lobe.f90, largest));
     g.retro = lobe.kind == LobeKind::retro_ggx;
     float* colours = f0.data() + ggx.size() * padded_channels;
-    for (std::size_t c = 0; c < n; ++c) colours[c] = static_cast<float>(lobe.color[c]);
+    for (std::size_t c = 0; c < n; ++c) colours[c] = static_cast<float>(std::min(lobe.color[c], largest));
     g.f0 = colours;
     ggx.push_back(g);
   };

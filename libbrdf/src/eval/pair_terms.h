@@ -9,10 +9,14 @@
 
 namespace brdf::eval {
 
-/// Cosines below this count as this in the lobes: quotients stay finite, and nothing in reach of a measurement changes.
-inline constexpr float min_cosine = 1e-12f;
+/// Cosines below this count as this in the lobes: no denominator leaves the range of float, and nothing in reach of a
+/// measurement changes. 89.99999 degrees have 1.7e-7.
+inline constexpr float min_cosine = 1e-9f;
 /// Smallest normal float, rounded up.
 inline constexpr float min_denominator = 1.2e-38f;
+/// A power of two that denominators of normal distributions carry, and their numerators squared: those are as |s|^4, which
+/// at the horizon, with alpha 1e-5, would leave the range of float.
+inline constexpr float ndf_scale = 0x1p38f;
 /// Longer pairs than two vectors of length 2 are no directions.
 inline constexpr float max_norm2 = 16.0f;
 

@@ -10,13 +10,13 @@ namespace brdf::eval {
 
 namespace {
 
-constexpr float half_inv_pi = static_cast<float>(0.5 * std::numbers::inv_pi);
+constexpr float scaled_half_inv_pi = static_cast<float>(0.5 * std::numbers::inv_pi) * ndf_scale * ndf_scale;
 constexpr float inv_pi = std::numbers::inv_pi_v<float>;
 
 /// D = numerator / denominator^2 with
 ///   numerator = |s|^4 / pi,   denominator = |s|^2 (sin^2 theta_h / alpha + alpha cos^2 theta_h),
-/// kept apart so that one division serves D and what it is divided by. Near the peak no digits cancel, and at alpha 1e-5
-/// nothing leaves the range of float. Here the numerator is halved, as f wants it.
+/// kept apart so that one division serves D and what it is divided by. Near the peak no digits cancel, and with ndf_scale
+/// nothing leaves the range of float at alpha 1e-5. Here the numerator is halved, as f wants it.
 struct Ndf {
   float numerator, denominator;
 };
@@ -24,18 +24,15 @@ struct Ndf {
 inline Ndf ndf(const GgxLobe& g, const PairTerms& p) noexcept {
   const float in_plane = g.retro ? p.d_xy2 : p.s_xy2;
   const float s2 = in_plane + p.s_z2;
-  return {half_inv_pi * (s2 * s2), in_plane * g.inv_alpha + p.s_z2 * g.alpha};
-}
-
-inline float guarded_quotient(const Ndf& n, float divisor) noexcept {
-  return n.numerator / std::max(n.denominator * n.denominator * divisor, min_denominator);
+  return {scaled_half_inv_pi * (s2 * s2), in_plane * g.inv_alpha + p.s_z2 * g.alpha};
 }
 
 /// D G2 / (4 cos_i cos_o), with G2 of Heitz 2014, eq. 99: 1 / (2 (co sqrt(a2 + (1 - a2) ci^2) + ci sqrt(...))).
 inline float ggx_value(const GgxLobe& g, const PairTerms& p) noexcept {
   const float shadowing = p.low * std::sqrt(g.alpha2 + g.one_minus_alpha2 * (p.high * p.high)) +
                           p.high * std::sqrt(g.alpha2 + g.one_minus_alpha2 * (p.low * p.low));
-  return guarded_quotient(ndf(g, p), shadowing);
+  const Ndf n = ndf(g, p);
+  return n.numerator / (n.denominator * n.denominator * std::max(shadowing, g.least_shadowing));
 }
 
 /// Lobe values apart from colour: f_c = lambert_c + sum f0_kc plain_k + grazing.

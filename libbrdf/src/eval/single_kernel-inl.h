@@ -33,7 +33,7 @@ HWY_INLINE V4 four(float a, float b, float c, float e) {
 
 /// Four lobes without colour; formulas as in eval/scalar_eval.cpp.
 HWY_INLINE void four_lobes(const FourLobes& g, const PairTerms& p, V4 schlick, V4& plain, V4& grazing) {
-  constexpr float half_inv_pi = static_cast<float>(0.5 * std::numbers::inv_pi);
+  constexpr float scaled_half_inv_pi = static_cast<float>(0.5 * std::numbers::inv_pi) * ndf_scale * ndf_scale;
   const auto retro = hn::Gt(four(g.retro), hn::Zero(Four()));
   const V4 in_plane = hn::IfThenElse(retro, four(p.d_xy2), four(p.s_xy2)), s_z2 = four(p.s_z2);
   const V4 s2 = hn::Add(in_plane, s_z2), alpha2 = four(g.alpha2), rest = four(g.one_minus_alpha2);
@@ -41,8 +41,8 @@ HWY_INLINE void four_lobes(const FourLobes& g, const PairTerms& p, V4 schlick, V
   const V4 of_high = hn::Sqrt(hn::MulAdd(rest, four(p.high * p.high), alpha2));
   const V4 of_low = hn::Sqrt(hn::MulAdd(rest, four(p.low * p.low), alpha2));
   const V4 shadowing = hn::MulAdd(four(p.low), of_high, hn::Mul(four(p.high), of_low));
-  const V4 divisor = hn::Max(hn::Mul(hn::Mul(den, den), shadowing), four(min_denominator));
-  const V4 value = hn::Div(hn::Mul(hn::Mul(s2, s2), four(half_inv_pi)), divisor);
+  const V4 divisor = hn::Mul(hn::Mul(den, den), hn::Max(shadowing, four(g.least_shadowing)));
+  const V4 value = hn::Div(hn::Mul(hn::Mul(s2, s2), four(scaled_half_inv_pi)), divisor);
   // lane 0 of schlick is for reflection lobes, lane 1 for retro lobes
   const V4 fresnel = hn::IfThenElse(retro, hn::Broadcast<1>(schlick), hn::Broadcast<0>(schlick));
   const V4 bent = hn::Mul(value, fresnel);
