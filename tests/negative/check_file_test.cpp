@@ -106,8 +106,8 @@ TEST(CheckFile, PrepareKeepsToTheLimitsOfDecode) {
   const auto bytes = container::pack(test::layered_content());
   const FileCheck plenty = check_file(bytes);
   DecodeOptions options;
-  options.limits.max_temporary_bytes = plenty.at(EvalLevel::exact).temporary_bytes - 1;
-  ASSERT_GT(options.limits.max_temporary_bytes, plenty.at(EvalLevel::balanced).temporary_bytes);
+  options.limits.max_table_bytes = plenty.at(EvalLevel::exact).table_bytes - 1;
+  ASSERT_GT(options.limits.max_table_bytes, plenty.at(EvalLevel::balanced).table_bytes);
   const Material m = Material::decode(bytes, options);
   EXPECT_THROW((void)m.prepare(EvalLevel::exact), Error);
   EXPECT_EQ(check_file(bytes, options.limits).at(EvalLevel::exact).problem->code(), ErrorCode::limit_exceeded);

@@ -16,7 +16,7 @@ namespace brdf {
 /// construction and thread-safe.
 class GgxEnergy {
  public:
-  /// Takes some milliseconds. alpha from 1e-5 to 1; else throws Error(invalid_argument).
+  /// Takes some ten milliseconds. alpha from 1e-5 to 1; else throws Error(invalid_argument).
   explicit GgxEnergy(double alpha);
 
   /// Directional albedo E: the integral of f cos_i over the hemisphere of wi, for a direction of cosine `cos_theta` in
