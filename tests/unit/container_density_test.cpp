@@ -61,7 +61,8 @@ TEST(DensityCodes, AnyStreamIsADensity) {
   for (int trial = 0; trial < 20; ++trial) {
     std::vector<std::byte> payload{std::byte{1}, std::byte{1}};
     for (std::uint32_t n = random.below(3000); n > 0; --n) payload.push_back(static_cast<std::byte>(random.below(256)));
-    for (const std::int16_t code : read_density(payload).components.at(0)) ASSERT_LE(std::abs(code), largest_density_code);
+    const DensityCodes codes = read_density(payload);
+    for (const std::int16_t code : codes.components.at(0)) ASSERT_LE(std::abs(code), largest_density_code);
   }
 }
 
