@@ -31,7 +31,7 @@ void place_edges(double alpha, Table& t) {
     const auto lobe = [y](double k) { return y * (1 + k) / (y + k); };
     double sum = 0, count = 0;
     for (double k = narrowest; k < 0.5; k *= 16, ++count) sum += lobe(k);
-    return count > 0 ? 0.2 * lobe(narrowest) + 0.55 * sum / count + 0.25 * y : y;
+    return count > 0 ? 0.28 * lobe(narrowest) + 0.5 * sum / count + 0.22 * y : y;
   };
   for (std::size_t i = 1; i < row_cells; ++i) {
     const double wanted = static_cast<double>(i) / row_cells;
