@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "support/sampling_checks.h"
 
+#include "lobes/lobe_kinds.h"
 #include "support/chi_squared.h"
 #include "support/map_quadrature.h"
 
@@ -50,9 +51,7 @@ double azimuth_noise(const Material& m, double cos_o) {
 void expect_sampling(const Material& m, const Vec3f& wo, std::size_t samples, double p_threshold) {
   const Draws d = draw(m, wo, samples, 77);
   const HemisphereGrid grid;
-  const auto& lobes = m.lobes().lobes;
-  const bool retro = std::any_of(lobes.begin(), lobes.end(), [](const Lobe& l) { return l.kind == LobeKind::retro_ggx; });
-  const CellIntegrals integrals = integrate(m, wo, grid, retro);
+  const CellIntegrals integrals = integrate(m, wo, grid, lobes::has_retro_lobes(m.lobes()));
   std::vector<double> observed(grid.cells(), 0.0), expected = integrals.pdf;
   double sum = 0, square = 0;
   for (std::size_t i = 0; i < samples; ++i) {

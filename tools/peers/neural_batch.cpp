@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 // The network for two vectors of pairs at a time, so that each weight that is loaded serves both.
-#include "vector_targets.h"
+#include "base/highway_targets.h"
 
 #undef HWY_TARGET_INCLUDE
 #define HWY_TARGET_INCLUDE "neural_batch.cpp"

@@ -3,7 +3,7 @@
 // pair, each of the four rows of two texels with one load. The loads of a block depend on nothing but its positions, so an
 // out-of-order processor has those of many pairs on their way at once: software prefetching, with or without a block in
 // between, measured 10 % slower from memory and 40 % slower from the cache.
-#include "vector_targets.h"
+#include "base/highway_targets.h"
 
 #undef HWY_TARGET_INCLUDE
 #define HWY_TARGET_INCLUDE "raw_table_batch.cpp"

@@ -11,6 +11,7 @@
 #include "container/residual_chunk.h"
 #include "container/slice_frame_codes.h"
 #include "container/varint.h"
+#include "lobes/lobe_kinds.h"
 #include "residual/layer_codec.h"
 
 #include <algorithm>
@@ -201,10 +202,7 @@ Unpacked unpack(std::span<const std::byte> bytes, const DecodeLimits& limits, bo
   }
   if (out.content.lobes.channels != out.content.component.channels.count || out.content.errors.empty())
     throw Error(ErrorCode::malformed, ".brdfc file: it has no lobes chunk");
-  if (!out.content.sampling.empty()) {
-    const auto& lobes = out.content.lobes.lobes;
-    check_density(out.content.sampling, std::any_of(lobes.begin(), lobes.end(), [](const Lobe& l) { return l.kind == LobeKind::retro_ggx; }));
-  }
+  if (!out.content.sampling.empty()) check_density(out.content.sampling, lobes::has_retro_lobes(out.content.lobes));
   return out;
 }
 

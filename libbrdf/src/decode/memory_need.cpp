@@ -2,6 +2,7 @@
 #include "decode/memory_need.h"
 
 #include "decode/resample_slices.h"
+#include "lobes/lobe_kinds.h"
 #include "sample/build_density.h"
 #include "sample/density.h"
 #include "slices/slice_table.h"
@@ -47,10 +48,9 @@ std::optional<Error> beyond_limits(const MemoryNeed& need, EvalLevel level, cons
   return std::nullopt;
 }
 
-std::uint64_t sampling_table_bytes(const LobeSet& lobes) noexcept {
-  const bool retro = std::any_of(lobes.lobes.begin(), lobes.lobes.end(), [](const Lobe& l) { return l.kind == LobeKind::retro_ggx; });
+std::uint64_t sampling_table_bytes(const LobeSet& set) noexcept {
   constexpr std::uint64_t table = ComponentTable::views * (1 + ComponentTable::rows_per_view) * (sizeof(sample::DensityRow) + sizeof(sample::QuarterRow));
-  return sizeof(Material::Sampling) + (retro ? 2 : 1) * table;
+  return sizeof(Material::Sampling) + (lobes::has_retro_lobes(set) ? 2 : 1) * table;
 }
 
 }  // namespace brdf::decode

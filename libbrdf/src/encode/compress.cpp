@@ -223,12 +223,13 @@ EncodeResult compress_without_cdf(const Measurement& m, const EncodeOptions& opt
   const auto finish = [&](Encoded& e) { encode::record_errors(e, verification, options.level, worth_of(options)); };
   finish(best);
   summary.source_albedo = encode::largest_albedo(m, Material::decode(best.bytes));
-  if (options.energy == EnergyMode::clamp)
-    summary.energy_scale = encode::clamp_energy(best, std::max(1.0, summary.source_albedo) + encode::energy_tolerance,
-                                                options.target_size.value_or(UINT64_MAX), finish);
-  const encode::LargestAlbedo albedo = encode::largest_albedo(best.bytes);
-  summary.largest_albedo = albedo.value;
-  summary.energy = encode::energy_sentence(options.energy, albedo, summary.source_albedo, summary.energy_scale);
+  const encode::ClampedEnergy energy =
+      options.energy == EnergyMode::clamp ? encode::clamp_energy(best, std::max(1.0, summary.source_albedo) + encode::energy_tolerance,
+                                                                 options.target_size.value_or(UINT64_MAX), finish)
+                                          : encode::ClampedEnergy{1, encode::largest_albedo(best.bytes)};
+  summary.energy_scale = energy.scale;
+  summary.largest_albedo = energy.albedo.value;
+  summary.energy = encode::energy_sentence(options.energy, energy.albedo, summary.source_albedo, energy.scale);
   summary.seconds_verify = seconds_since(start);
 
   count_bytes(best.bytes, summary);

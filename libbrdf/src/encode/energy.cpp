@@ -2,6 +2,7 @@
 #include "encode/energy.h"
 
 #include "container/lobe_quantiser.h"
+#include "sample/square_lattice.h"
 
 #include <algorithm>
 #include <array>
@@ -59,10 +60,7 @@ double largest_albedo(const Measurement& m, const Material& material) {
   for (const double degrees : angles) {
     std::fill(sum.begin(), sum.end(), 0.0);
     for (std::size_t i = 0; i < samples; ++i) {
-      const auto golden = [](std::size_t n) { return std::fmod((static_cast<double>(n) + 0.5) * std::numbers::phi, 1.0); };
-      const std::size_t row = i / rows, column = i % rows;
-      const Vec3d u(golden(row + column), (static_cast<double>(row) + golden(column)) / rows, (static_cast<double>(column) + golden(row)) / rows);
-      const Sample s = material.sample(view(degrees), Vec3f(u), weight);
+      const Sample s = material.sample(view(degrees), sample::lattice_point(i / rows, i % rows, rows), weight);
       if (!(s.pdf > 0) || !reference.eval(Vec3d(s.wi), Vec3d(view(degrees)), f)) continue;
       for (std::size_t c = 0; c < channels; ++c) sum[c] += f[c] * static_cast<double>(s.wi.z) / static_cast<double>(s.pdf);
     }
@@ -71,7 +69,7 @@ double largest_albedo(const Measurement& m, const Material& material) {
   return largest;
 }
 
-double clamp_energy(Encoded& e, double limit, std::uint64_t most_bytes, const std::function<void(Encoded&)>& repack) {
+ClampedEnergy clamp_energy(Encoded& e, double limit, std::uint64_t most_bytes, const std::function<void(Encoded&)>& repack) {
   const Encoded original = e;
   LargestAlbedo found = largest_albedo(e.bytes);
   int steps = 0;
@@ -84,7 +82,7 @@ double clamp_energy(Encoded& e, double limit, std::uint64_t most_bytes, const st
     repack(e);
     found = largest_albedo(e.bytes);
   }
-  return std::exp2(-steps / 128.0);
+  return {std::exp2(-steps / 128.0), found};
 }
 
 std::string energy_sentence(EnergyMode mode, const LargestAlbedo& found, double source, double scale) {

@@ -28,9 +28,14 @@ LargestAlbedo largest_albedo(std::span<const std::byte> bytes);
 /// The same of a measurement, cells that were not measured counting as black; by the samples of `material`.
 double largest_albedo(const Measurement& m, const Material& material);
 
+struct ClampedEnergy {
+  double scale = 1;
+  LargestAlbedo albedo;  ///< of the file as it is now
+};
+
 /// Scales everything that the file says down, in steps of 0.5 %, until no albedo exceeds `limit`, and packs it anew with
-/// `repack`, which measures the errors again. Files of more than `most_bytes` are passed over. Returns the scale.
-double clamp_energy(Encoded& e, double limit, std::uint64_t most_bytes, const std::function<void(Encoded&)>& repack);
+/// `repack`, which measures the errors again. Files of more than `most_bytes` are passed over.
+ClampedEnergy clamp_energy(Encoded& e, double limit, std::uint64_t most_bytes, const std::function<void(Encoded&)>& repack);
 
 /// One sentence.
 std::string energy_sentence(EnergyMode mode, const LargestAlbedo& found, double source, double scale);

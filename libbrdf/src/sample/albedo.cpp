@@ -2,6 +2,7 @@
 #include "sample/albedo.h"
 
 #include "sample/batch_sample.h"
+#include "sample/square_lattice.h"
 
 #include <algorithm>
 #include <array>
@@ -18,9 +19,6 @@ constexpr std::size_t max_channels = 1024, max_weights = 16384;
 
 }  // namespace
 
-/// One point in each of equal squares of (u.y, u.z). Its place in the square walks by golden steps along the row and along
-/// the column, so that each number alone takes evenly spread values too: much of what is integrated depends on one of
-/// them only. The choice of the component walks along the diagonals.
 void albedo(const eval::Tables& t, const Material::Sampling* s, const Vec3f& wo, std::span<float> a) noexcept {
   const auto channels = static_cast<std::size_t>(t.lobes.channels);
   a = a.first(channels);
@@ -34,17 +32,12 @@ void albedo(const eval::Tables& t, const Material::Sampling* s, const Vec3f& wo,
   wo_x.fill(wo.x);
   wo_y.fill(wo.y);
   wo_z.fill(wo.z);
-  const auto golden = [](std::size_t n) {
-    const double turns = (static_cast<double>(n) + 0.5) * 0.61803398874989485;
-    return static_cast<float>(turns - static_cast<double>(static_cast<int>(turns)));
-  };
   for (std::size_t row = 0; row < strata; ++row) {
     for (std::size_t first = 0; first < strata; first += step) {
       const std::size_t size = std::min(step, strata - first);
       for (std::size_t i = 0; i < size; ++i) {
-        u_x[i] = golden(first + i + row);
-        u_y[i] = (static_cast<float>(row) + golden(first + i)) / strata;
-        u_z[i] = (static_cast<float>(first + i) + golden(row)) / strata;
+        const Vec3f u = lattice_point(row, first + i, strata);
+        u_x[i] = u.x, u_y[i] = u.y, u_z[i] = u.z;
       }
       sample_batch(t, s, {wo_x.data(), wo_y.data(), wo_z.data(), size}, {u_x.data(), u_y.data(), u_z.data(), size},
                    {x.data(), y.data(), z.data(), size}, pdf.data(), {weight.data(), size});

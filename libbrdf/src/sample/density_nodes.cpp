@@ -18,6 +18,18 @@ constexpr double least_density = 1e-6;
 /// Views below 60 degrees or so, between which one looks more closely.
 constexpr std::size_t grazing_views = 8;
 
+/// cos theta_o of the view at a position among the nodes, which may lie between them and up to first_view below the first.
+double view_cosine(double position) {
+  const double wanted = (position + Table::first_view) / (static_cast<double>(Table::views) - 1 + Table::first_view);
+  double below = 0, above = 1;
+  for (int step = 0; step < 60; ++step) {
+    const double c = 0.5 * (below + above);
+    const double t = Table::horizon_share * std::sqrt(c) + (1 - Table::horizon_share) * (1 - std::sqrt(1 - c));
+    (t < wanted ? below : above) = c;
+  }
+  return above;
+}
+
 Map map_at(double position) {
   const double c = view_cosine(position);
   return {std::sqrt(1 - c * c), c};
@@ -44,17 +56,6 @@ double middle(std::size_t part, std::size_t parts) { return (static_cast<double>
 void reach_horizon(double* last) { *last = std::max(2 * *last - last[-1], 0.0); }
 
 }  // namespace
-
-double view_cosine(double position) {
-  const double wanted = (position + Table::first_view) / (static_cast<double>(Table::views) - 1 + Table::first_view);
-  double below = 0, above = 1;
-  for (int step = 0; step < 60; ++step) {
-    const double c = 0.5 * (below + above);
-    const double t = Table::horizon_share * std::sqrt(c) + (1 - Table::horizon_share) * (1 - std::sqrt(1 - c));
-    (t < wanted ? below : above) = c;
-  }
-  return above;
-}
 
 /// A point of the unit square between nodes.
 struct DensityNodes::Probe {

@@ -13,9 +13,6 @@
 
 namespace brdf::sample {
 
-/// cos theta_o of the view at a position among the nodes, which may lie between them and up to first_view below the first.
-double view_cosine(double position);
-
 /// Densities of the unit square at the nodes of all views, before they become distributions.
 class DensityNodes {
  public:
