@@ -13,7 +13,9 @@ endif()
 if(NOT DEFINED CMAKE_CXX_COMPILER_LAUNCHER)
   find_program(BRDF_CCACHE ccache)
   if(BRDF_CCACHE)
-    set(CMAKE_CXX_COMPILER_LAUNCHER "${BRDF_CCACHE}")
+    # What another checkout compiled serves this one: paths count from the checkout, and precompiled headers by content.
+    set(CMAKE_CXX_COMPILER_LAUNCHER "${CMAKE_COMMAND}" -E env "CCACHE_BASEDIR=${PROJECT_SOURCE_DIR}" CCACHE_NOHASHDIR=1
+      CCACHE_SLOPPINESS=pch_defines,time_macros,include_file_mtime,include_file_ctime "${BRDF_CCACHE}")
   endif()
 endif()
 
