@@ -23,37 +23,25 @@ constexpr double most_between_nodes = 2;
 /// An integral that no search reaches.
 constexpr float beyond = 1e30f;
 
-/// Edges at equal steps of a function that rises like the integrals of GGX lobes at normal incidence, y (1 + k) / (y + k)
-/// with k = alpha^2 / 2: the narrowest lobe, wider ones up to the whole range, because at grazing views the horizon takes
-/// the lobe apart and measured lobes have long tails, and a line.
-void place_edges(double alpha, Table& t) {
-  const auto integral = [narrowest = 0.5 * alpha * alpha](double y) {
-    const auto lobe = [y](double k) { return y * (1 + k) / (y + k); };
-    double sum = 0, count = 0;
-    for (double k = narrowest; k < 0.5; k *= 16, ++count) sum += lobe(k);
-    return count > 0 ? 0.28 * lobe(narrowest) + 0.5 * sum / count + 0.22 * y : y;
-  };
-  for (std::size_t i = 1; i < row_cells; ++i) {
-    const double wanted = static_cast<double>(i) / row_cells;
-    double below = 0, above = 1;
-    for (int step = 0; step < 60; ++step) {
-      const double middle = 0.5 * (below + above);
-      (integral(middle) < wanted ? below : above) = middle;
-    }
-    t.edge[i] = std::max(static_cast<float>(above), std::nextafter(t.edge[i - 1], 1.0f));
+void set_warp(double alpha, Table& t) {
+  t.warp = HeightWarp(alpha);
+  double lower = 0;
+  for (std::size_t i = 0; i < row_cells; ++i) {
+    const double upper = i + 1 < row_cells ? t.warp.inverse(static_cast<double>(i + 1) / row_cells) : 1.0;
+    t.cell[i] = {static_cast<float>(lower), static_cast<float>(upper - lower), static_cast<float>(row_cells * (upper - lower) * t.warp(lower).slope)};
+    lower = upper;
   }
-  t.edge[row_cells] = t.edge[row_cells + 1] = 1;
 }
 
 /// Fills a row from densities at the edges; returns the integral.
-double fill_row(std::span<const double> density, std::span<const double> width, DensityRows& t, std::size_t at) {
+double fill_row(std::span<const double> density, DensityRows& t, std::size_t at) {
   DensityRow& row = t.rows[at];
   QuarterRow& quarter = t.quarters[at];
   quarter.integral.fill(beyond);
   row.node.fill(beyond);
   double sum = 0;
   for (std::size_t i = 0; i < density.size(); ++i) {
-    if (i > 0) sum += 0.5 * (density[i - 1] + density[i]) * width[i - 1];
+    if (i > 0) sum += 0.5 * (density[i - 1] + density[i]) / static_cast<double>(density.size() - 1);
     row.node[2 * i] = static_cast<float>(sum);
     row.node[2 * i + 1] = static_cast<float>(density[i]);
     if (i % 4 == 0 && i > 0 && i + 1 < density.size()) quarter.integral[i / 4 - 1] = static_cast<float>(sum);
@@ -68,21 +56,17 @@ void fill_table(const DensityNodes& nodes, Table& t) {
   };
   resize(t.marginal, Table::views);
   resize(t.conditional, Table::views * Table::rows_per_view);
-  std::array<double, row_cells> width;
-  for (std::size_t i = 0; i < row_cells; ++i) width[i] = static_cast<double>(t.edge[i + 1]) - static_cast<double>(t.edge[i]);
-  std::array<double, Table::columns> column_width;
-  column_width.fill(1.0 / static_cast<double>(Table::columns));
   for (std::size_t k = 0; k < Table::views; ++k) {
     std::array<double, Table::rows_per_view> totals;
     for (std::size_t j = 0; j < Table::rows_per_view; ++j)
-      totals[j] = fill_row(nodes.view(k).subspan(j * DensityNodes::edges, DensityNodes::edges), width, t.conditional, k * Table::rows_per_view + j);
-    fill_row(totals, column_width, t.marginal, k);
+      totals[j] = fill_row(nodes.view(k).subspan(j * DensityNodes::edges, DensityNodes::edges), t.conditional, k * Table::rows_per_view + j);
+    fill_row(totals, t.marginal, k);
   }
 }
 
 /// Tables of all views; returns the integral of f for each.
 std::array<double, Table::views> tabulate(Integrand f, Table& t) {
-  DensityNodes nodes(t);
+  DensityNodes nodes(t.warp);
   nodes.tabulate(f);
   nodes.cover(f, most_between_nodes);
   fill_table(nodes, t);
@@ -100,7 +84,7 @@ double narrowest(const LobeSet& lobes, LobeKind kind) {
 
 std::shared_ptr<const Material::Sampling> build_density(const LobeSet& lobes, const eval::Tables& tables, bool mirror_symmetric) {
   auto sampling = std::make_shared<Material::Sampling>();
-  place_edges(narrowest(lobes, LobeKind::ggx), sampling->front);
+  set_warp(narrowest(lobes, LobeKind::ggx), sampling->front);
   if (tables.lobes.forward_count == tables.lobes.ggx.size()) {
     tabulate(Integrand({{&tables, 1, false}}, mirror_symmetric), sampling->front);
     return sampling;
@@ -112,7 +96,7 @@ std::shared_ptr<const Material::Sampling> build_density(const LobeSet& lobes, co
   retro_tables.lobes = eval::LobeParams(retro);
   const auto front_integrals = tabulate(Integrand({{&tables, 1, false}, {&retro_tables, -1, false}}, mirror_symmetric), sampling->front);
   Table& table = sampling->back.emplace();
-  place_edges(narrowest(lobes, LobeKind::retro_ggx), table);
+  set_warp(narrowest(lobes, LobeKind::retro_ggx), table);
   const auto back_integrals = tabulate(Integrand({{&retro_tables, 1, true}}, true), table);
   for (std::size_t k = 0; k < Table::views; ++k) {
     const double sum = front_integrals[k] + back_integrals[k], share = sum > 0 ? back_integrals[k] / sum : 0.5;
@@ -139,8 +123,8 @@ NodeDensities node_densities(const Material::Sampling& tables) {
 std::shared_ptr<const Material::Sampling> density_from_nodes(const LobeSet& lobes, const NodeDensities& nodes) {
   auto sampling = std::make_shared<Material::Sampling>();
   const auto fill = [](double alpha, const std::vector<double>& density, Table& t) {
-    place_edges(alpha, t);
-    DensityNodes table(t);
+    set_warp(alpha, t);
+    DensityNodes table(t.warp);
     table.assign(density);
     fill_table(table, t);
   };

@@ -28,6 +28,45 @@ HWY_INLINE kernel::CellPosition view_position(V cos_o) {
   return kernel::cell_position(hn::Max(at, hn::Zero(Floats())), static_cast<int>(Table::views) - 2);
 }
 
+/// A height through the warp: t, and the first three derivatives as factors 1, -2 and 6 leave them.
+struct Warped {
+  V t, slope, bend, third;
+};
+
+HWY_INLINE Warped warped(const HeightWarp& w, V y) {
+  V sum = set(w.line), slope = sum, bend = hn::Zero(Floats()), third = bend;
+  for (std::size_t j = 0; j < HeightWarp::terms; ++j) {
+    const V width = set(w.width[j]), inverse = kernel::quotient(set(1.0f), hn::Add(y, width));
+    const V term = hn::Mul(set(w.rise[j]), inverse), part = hn::Mul(term, hn::Mul(width, inverse)), next = hn::Mul(part, inverse);
+    sum = hn::Add(sum, term);
+    slope = hn::Add(slope, part);
+    bend = hn::Add(bend, next);
+    third = hn::MulAdd(next, inverse, third);
+  }
+  return {hn::Mul(y, sum), slope, bend, third};
+}
+
+/// A height and dt / dy there.
+struct Unwarped {
+  V height, slope;
+};
+
+/// Of a share of a cell, whose WarpCell is given: Halley's steps from there.
+HWY_INLINE Unwarped unwarped(const HeightWarp& w, V cell, V in_cell, V lower, V height, V bend) {
+  const V one = set(1.0f), t = hn::Mul(hn::Add(cell, in_cell), set(1.0f / static_cast<float>(row_cells)));
+  V y = hn::MulAdd(height, kernel::quotient(in_cell, hn::MulAdd(bend, hn::Sub(one, in_cell), in_cell)), lower);
+  V slope = one;
+  for (int step = 0; step < w.steps; ++step) {
+    const Warped at = warped(w, y);
+    const V rest = hn::Sub(t, at.t);
+    const V change = kernel::quotient(hn::Mul(rest, at.slope), hn::NegMulAdd(rest, at.bend, hn::Mul(at.slope, at.slope)));
+    const V next = hn::Min(hn::Max(hn::Add(y, change), lower), hn::Add(lower, height)), moved = hn::Sub(next, y);
+    slope = hn::MulAdd(hn::MulSub(hn::Mul(set(3.0f), at.third), moved, hn::Add(at.bend, at.bend)), moved, at.slope);
+    y = next;
+  }
+  return {hn::Min(y, one), slope};
+}
+
 /// A cell of the table for each pair, and what is found there.
 struct CellBlock {
   HWY_ALIGN std::int32_t view[2][block_pairs];  ///< the two whose densities are mixed
@@ -35,14 +74,15 @@ struct CellBlock {
   HWY_ALIGN std::int32_t row[2][block_pairs];   ///< conditional row of either, at the lower column
   HWY_ALIGN float to_column[block_pairs];
   HWY_ALIGN std::int32_t cell[block_pairs];
+  HWY_ALIGN float in_cell[block_pairs], slope[block_pairs];  ///< place there, and the warp's slope
   HWY_ALIGN float node[4 * block_pairs];  ///< integral and density at either edge of the cell
-  HWY_ALIGN float edge[2 * block_pairs];
+  HWY_ALIGN float start[4 * block_pairs];  ///< WarpCell
 
   /// What vectors read behind the last pair must be numbers.
   HWY_INLINE void pad(std::size_t size, std::size_t vectors) {
     if (HWY_LIKELY(size == vectors)) return;
     for (std::size_t i = 4 * size; i < 4 * vectors; ++i) node[i] = 0;
-    for (std::size_t i = 2 * size; i < 2 * vectors; ++i) edge[i] = 0;
+    for (std::size_t i = 4 * size; i < 4 * vectors; ++i) start[i] = 1;
     for (std::size_t i = size; i < vectors; ++i) cell[i] = 0;
   }
 };
@@ -114,8 +154,8 @@ HWY_INLINE void search_rows(std::size_t size, const float* HWY_RESTRICT target, 
   for (std::size_t i = 0; i < size; ++i) kernel::store_four(rows(i).node(static_cast<std::size_t>(b.cell[i])), b.node + 4 * i);
 }
 
-HWY_INLINE void read_edge(const Table& t, CellBlock& b, std::size_t i) {
-  std::memcpy(b.edge + 2 * i, t.edge.data() + b.cell[i], 2 * sizeof(float));
+HWY_INLINE void read_start(const Table& t, CellBlock& b, std::size_t i) {
+  std::memcpy(b.start + 4 * i, &t.cell[static_cast<std::size_t>(b.cell[i])], sizeof(WarpCell));
 }
 
 /// Position in a cell where the integral of a density from a to e has risen to `rise` (of a cell of width 1).
@@ -125,7 +165,7 @@ HWY_INLINE V inverse_integral(V a, V e, V rise) {
   return hn::Min(hn::Max(kernel::quotient(twice, hn::Add(a, root)), zero), set(1.0f));
 }
 
-/// a + f (e - a) for positive a and e: never negative.
+/// (1 - f) a + f e: for positive a and e never negative.
 HWY_INLINE V between(V a, V e, V f) { return hn::MulAdd(f, e, hn::Mul(hn::Sub(set(1.0f), f), a)); }
 
 /// Density at `point`s; pass one of three, one vector.
@@ -137,19 +177,19 @@ HWY_INLINE void begin_density(const Table& t, V cos_o, const Point& p, CellBlock
   const kernel::CellPosition column = kernel::cell_position(hn::Mul(p.v, set(columns)), static_cast<int>(Table::columns) - 1);
   place_views(b, at, view);
   place_rows(b, at, column.index, column.fraction);
-  V cell = hn::Zero(d);
-  for (std::size_t i = 1; i < row_cells; ++i)
-    cell = hn::Add(cell, hn::IfThenElseZero(hn::Ge(p.height, set(t.edge[i])), set(1.0f)));
-  hn::Store(hn::ConvertTo(di, cell), di, b.cell + at);
+  const Warped height = warped(t.warp, p.height);
+  const kernel::CellPosition cell = kernel::cell_position(hn::Mul(height.t, set(static_cast<float>(row_cells))), static_cast<int>(row_cells) - 1);
+  hn::Store(cell.index, di, b.cell + at);
+  hn::Store(cell.fraction, d, b.in_cell + at);
+  hn::Store(height.slope, d, b.slope + at);
 }
 
 /// Pass three: density in the unit square.
-HWY_INLINE V finish_density(const CellBlock& b, std::size_t at, V height) {
+HWY_INLINE V finish_density(const CellBlock& b, std::size_t at) {
   const Floats d;
-  V unused, left, unused_too, right, lower, upper;
+  V unused, left, unused_too, right;
   hn::LoadInterleaved4(d, b.node + 4 * at, unused, left, unused_too, right);
-  hn::LoadInterleaved2(d, b.edge + 2 * at, lower, upper);
-  return between(left, right, hn::Min(kernel::quotient(hn::Sub(height, lower), hn::Sub(upper, lower)), set(1.0f)));
+  return hn::Mul(between(left, right, hn::Load(d, b.in_cell + at)), hn::Load(d, b.slope + at));
 }
 
 }  // namespace brdf::sample::HWY_NAMESPACE

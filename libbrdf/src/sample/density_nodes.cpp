@@ -35,7 +35,18 @@ Map map_at(double position) {
   return {std::sqrt(1 - c * c), c};
 }
 
-/// A direction of the unit square and what it counts, on both sides.
+/// A height before the warp, and how much of it there is per t.
+template <class T>
+struct Height {
+  T height, per_t;
+};
+
+Height<double> height_at(const HeightWarp& warp, double t) {
+  const double height = warp.inverse(t);
+  return {height, 1 / warp(height).slope};
+}
+
+/// A direction of the warped unit square and what it counts, on both sides.
 template <class T>
 struct Place {
   glm::vec<3, T> wi;
@@ -43,10 +54,13 @@ struct Place {
 };
 
 template <class T>
-Place<T> place(const HalfVectorMap<T>& map, T height, T v) {
-  const typename HalfVectorMap<T>::Half h = map.half_vector(height, v);
-  return {{2 * h.wo_h * h.x - map.s, 2 * h.wo_h * h.y, 2 * h.wo_h * h.z - map.c}, 2 * h.area};
+Place<T> place(const HalfVectorMap<T>& map, Height<T> at, T v) {
+  const typename HalfVectorMap<T>::Half h = map.half_vector(at.height, v);
+  return {{2 * h.wo_h * h.x - map.s, 2 * h.wo_h * h.y, 2 * h.wo_h * h.z - map.c}, 2 * h.area * at.per_t};
 }
+
+/// The lower edge of a cell, or a place in it.
+double in_row(std::size_t cell, double in_cell) { return (static_cast<double>(cell) + in_cell) / static_cast<double>(row_cells); }
 
 /// The middle of one of `parts` equal parts of [0, 1].
 double middle(std::size_t part, std::size_t parts) { return (static_cast<double>(part) + 0.5) / static_cast<double>(parts); }
@@ -61,24 +75,35 @@ void reach_horizon(double* last) { *last = std::max(2 * *last - last[-1], 0.0); 
 struct DensityNodes::Probe {
   std::size_t node;  ///< of a view: the lower one in both directions
   double to_column, in_cell;
-  float v, height;
+  float v;
+  Height<float> height;
   double share;  ///< of the unit square
   bool at_horizon;
 };
 
-/// `parts` in each column, two in each cell of S and three more where the last one ends at the horizon.
+/// `parts` in each column, two in each cell of t and three more where the last one ends at the horizon.
 std::vector<DensityNodes::Probe> DensityNodes::probes(std::size_t parts) const {
+  struct InRow {
+    std::size_t cell;
+    double in_cell, share;
+    Height<float> height;
+  };
+  std::vector<InRow> in_row_;
+  const auto add = [&](std::size_t i, double in_cell, double share) {
+    const Height<double> at = height_at(warp_, in_row(i, in_cell));
+    in_row_.push_back({i, in_cell, share / static_cast<double>(row_cells), {static_cast<float>(at.height), static_cast<float>(at.per_t)}});
+  };
+  for (std::size_t i = 0; i < row_cells; ++i)
+    for (const double in_cell : {0.25, 0.75}) add(i, in_cell, 0.5);
+  for (const double in_cell : {0.9, 0.97, 0.99}) add(row_cells - 1, in_cell, 0);
+
   std::vector<Probe> all;
   const double rows = static_cast<double>(Table::columns * parts);
   for (std::size_t row = 0; row < Table::columns * parts; ++row) {
     const double v = (static_cast<double>(row) + 0.5) / rows;
-    const auto add = [&](std::size_t i, double in_cell, double share) {
-      all.push_back({row / parts * edges + i, middle(row % parts, parts), in_cell, static_cast<float>(v),
-                     static_cast<float>(edge_[i] + in_cell * width_[i]), share * width_[i] / rows, i + 1 == row_cells && in_cell > 0.5});
-    };
-    for (std::size_t i = 0; i < row_cells; ++i)
-      for (const double in_cell : {0.25, 0.75}) add(i, in_cell, 0.5);
-    for (const double in_cell : {0.9, 0.97, 0.99}) add(row_cells - 1, in_cell, 0);
+    for (const InRow& p : in_row_)
+      all.push_back({row / parts * edges + p.cell, middle(row % parts, parts), p.in_cell, static_cast<float>(v), p.height,
+                     p.share / rows, p.cell + 1 == row_cells && p.in_cell > 0.5});
   }
   return all;
 }
@@ -91,20 +116,17 @@ std::uint64_t DensityNodes::temporary_bytes(int channels) noexcept {
   return 2 * (wide + close) * sizeof(Probe) + close * per_probe + evaluated + 2 * Table::views * per_view * sizeof(double);
 }
 
-DensityNodes::DensityNodes(const Table& table) : density_(Table::views * per_view) {
-  for (std::size_t i = 0; i < edges; ++i) edge_[i] = static_cast<double>(table.edge[i]);
-  for (std::size_t i = 0; i < row_cells; ++i) width_[i] = edge_[i + 1] - edge_[i];
-}
+DensityNodes::DensityNodes(const HeightWarp& warp) : warp_(warp), density_(Table::views * per_view) {}
 
 double DensityNodes::integral(std::span<const double> density) const noexcept {
   double sum = 0;
   for (std::size_t j = 0; j < Table::rows_per_view; ++j) {
     const double* const row = density.data() + j * edges;
     double total = 0;
-    for (std::size_t i = 0; i < row_cells; ++i) total += 0.5 * (row[i] + row[i + 1]) * width_[i];
+    for (std::size_t i = 0; i < row_cells; ++i) total += 0.5 * (row[i] + row[i + 1]);
     sum += (j == 0 || j == Table::columns ? 0.5 : 1.0) * total;
   }
-  return sum / static_cast<double>(Table::columns);
+  return sum / static_cast<double>(Table::columns * row_cells);
 }
 
 void DensityNodes::normalise(std::size_t k) {
@@ -116,12 +138,13 @@ void DensityNodes::normalise(std::size_t k) {
 void DensityNodes::tabulate(Integrand& f) {
   std::vector<Vec3d> wi(per_view);
   std::vector<double> area(per_view), cosine(per_view), f_cos(per_view);
+  std::array<Height<double>, edges> height;
+  // the last stands in the middle of the last cell
+  for (std::size_t i = 0; i < edges; ++i) height[i] = height_at(warp_, i < row_cells ? in_row(i, 0) : in_row(row_cells - 1, 0.5));
   for (std::size_t k = 0; k < Table::views; ++k) {
     const Map map = map_at(static_cast<double>(k));
     for (std::size_t n = 0; n < per_view; ++n) {
-      const bool last = n % edges == row_cells;  // stands in the middle of the last cell
-      const double height = edge_[n % edges] - (last ? 0.5 * width_[row_cells - 1] : 0.0);
-      const Place<double> p = place(map, height, static_cast<double>(n / edges) / static_cast<double>(Table::columns));
+      const Place<double> p = place(map, height[n % edges], static_cast<double>(n / edges) / static_cast<double>(Table::columns));
       wi[n] = p.wi;
       area[n] = p.area;
       cosine[n] = std::max(p.wi.z, 0.0) * std::numbers::inv_pi * p.area;

@@ -13,13 +13,13 @@
 
 namespace brdf::sample {
 
-/// Densities of the unit square at the nodes of all views, before they become distributions.
+/// Densities of the warped unit square at the nodes of all views, before they become distributions.
 class DensityNodes {
  public:
   using Table = ComponentTable;
   static constexpr std::size_t edges = row_cells + 1, per_view = Table::rows_per_view * edges;
 
-  explicit DensityNodes(const Table& table);
+  explicit DensityNodes(const HeightWarp& warp);
 
   /// Most bytes that one of these takes with its work, or two components of densities that are assigned.
   static std::uint64_t temporary_bytes(int channels) noexcept;
@@ -48,8 +48,7 @@ class DensityNodes {
                   std::vector<double>& raised) const;
   void raise(std::vector<double>& raised, std::size_t node, const Probe& at, double wanted, double found) const;
 
-  std::array<double, edges> edge_;
-  std::array<double, row_cells> width_;
+  HeightWarp warp_;
   std::vector<double> density_;
   std::array<double, Table::views> integrals_{};
 };

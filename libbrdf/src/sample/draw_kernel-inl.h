@@ -119,24 +119,30 @@ HWY_INLINE void invert_marginal(DrawBlock& b, std::size_t at) {
 }
 
 /// The second inverse, S, and the direction.
-HWY_INLINE void finish_draw(const DrawBlock& b, std::size_t at, Drawn& out) {
+HWY_INLINE void finish_draw(const Material::Sampling& tables, const DrawBlock& b, std::size_t at, Drawn& out) {
   const Floats d;
   const V one = set(1.0f);
-  V before, left, after, right, lower, upper;
+  V before, left, after, right, lower, height, bend, unused;
   hn::LoadInterleaved4(d, b.cells.node + 4 * at, before, left, after, right);
-  hn::LoadInterleaved2(d, b.cells.edge + 2 * at, lower, upper);
+  hn::LoadInterleaved4(d, b.cells.start + 4 * at, lower, height, bend, unused);
   V before_other, left_other, after_other, right_other;
   hn::LoadInterleaved4(d, b.other + 4 * at, before_other, left_other, after_other, right_other);
-  const V width = hn::Sub(upper, lower);
-  const V in_cell = inverse_integral(hn::Mul(left, width), hn::Mul(right, width), hn::Sub(hn::Load(d, b.target + at), before));
-  const V height = hn::Min(hn::MulAdd(in_cell, width, lower), one), v = hn::Load(d, b.v + at);
+  const V in_cell = inverse_integral(left, right, hn::Mul(hn::Sub(hn::Load(d, b.target + at), before), set(static_cast<float>(row_cells))));
+  const V cell = hn::ConvertTo(d, hn::Load(Ints(), b.cells.cell + at));
+  Unwarped s = unwarped(tables.front.warp, cell, in_cell, lower, height, bend);
+  if (tables.back) {
+    const Unwarped back = unwarped(tables.back->warp, cell, in_cell, lower, height, bend);
+    const auto chosen = hn::Lt(hn::Load(d, b.turn + at), hn::Zero(d));
+    s = {hn::IfThenElse(chosen, back.height, s.height), hn::IfThenElse(chosen, back.slope, s.slope)};
+  }
+  const V v = hn::Load(d, b.v + at);
   const auto near = hn::Le(v, set(0.5f));
   const Views w{{hn::Load(d, b.x + at), hn::Load(d, b.y + at), hn::Load(d, b.z + at)},
                 hn::Load(d, b.s + at), hn::Load(d, b.e_x + at), hn::Load(d, b.e_y + at)};
-  const Mapped m = mapped_direction(w, height, {hn::IfThenElse(near, v, hn::Sub(one, v)), near}, hn::Load(d, b.side + at));
+  const Mapped m = mapped_direction(w, s.height, {hn::IfThenElse(near, v, hn::Sub(one, v)), near}, hn::Load(d, b.side + at));
   const auto valid = hn::Gt(hn::Load(d, b.valid + at), hn::Zero(d));
   const V density = between(between(left, right, in_cell), between(left_other, right_other, in_cell), hn::Load(d, b.cells.to_second + at));
-  out.store(at, m.wi, hn::IfThenElseZero(valid, hn::Mul(m.density, density)));
+  out.store(at, m.wi, hn::IfThenElseZero(valid, hn::Mul(m.density, hn::Mul(density, s.slope))));
 }
 
 HWY_INLINE void draw_cosine(const DirectionSpan& wo, const DirectionSpan& u, Drawn& out) {
@@ -169,14 +175,14 @@ HWY_INLINE void draw_block(const Material::Sampling* s, const DirectionSpan& wo,
     search_rows(size, b.target, b.cells, [&](std::size_t i) HWY_ATTR { return conditional_rows(table(i), b.cells, 0, i); });
     for (std::size_t i = 0; i < size; ++i) {
       kernel::store_four(conditional_rows(table(i), b.cells, 1, i).node(static_cast<std::size_t>(b.cells.cell[i])), b.other + 4 * i);
-      read_edge(table(i), b.cells, i);
+      read_start(table(i), b.cells, i);
     }
   };
   if (choose)
     invert([&](std::size_t i) -> const Table& { return b.turn[i] < 0 ? *s->back : s->front; });
   else
     invert([front = &s->front](std::size_t) -> const Table& { return *front; });
-  for (std::size_t at = 0; at < size; at += lanes) finish_draw(b, at, out);
+  for (std::size_t at = 0; at < size; at += lanes) finish_draw(*s, b, at, out);
   if (!choose) return;
   // the density of both components together, at the directions as they are returned
   PdfBlock both;

@@ -16,7 +16,7 @@ namespace brdf::sample::HWY_NAMESPACE {
 
 struct PdfBlock {
   CellBlock cells;
-  HWY_ALIGN float height[block_pairs], density[block_pairs];
+  HWY_ALIGN float density[block_pairs];
 };
 
 /// `part` of a batch from `first` on.
@@ -46,7 +46,6 @@ HWY_INLINE void component_pdf(const Table& t, float turn, const DirectionSpan& w
     const Views w = views_of({hn::Mul(p.wo.x, set(turn)), hn::Mul(p.wo.y, set(turn)), p.wo.z});
     const Point point = mapped_point(w, p.wi);
     begin_density(t, w.wo.z, point, b.cells, at);
-    hn::Store(point.height, d, b.height + at);
     hn::Store(hn::IfThenElseZero(p.valid, point.density), d, b.density + at);
   }
   b.cells.pad(size, vectors);
@@ -55,10 +54,9 @@ HWY_INLINE void component_pdf(const Table& t, float turn, const DirectionSpan& w
     const float up = b.cells.to_second[i];
     kernel::store_four((1.0f - up) * conditional_rows(t, b.cells, 0, i).node(cell) + up * conditional_rows(t, b.cells, 1, i).node(cell),
                        b.cells.node + 4 * i);
-    read_edge(t, b.cells, i);
   }
   for (std::size_t at = 0; at < size; at += lanes) {
-    const V density = hn::Load(d, b.density + at), value = hn::Mul(density, finish_density(b.cells, at, hn::Load(d, b.height + at)));
+    const V density = hn::Load(d, b.density + at), value = hn::Mul(density, finish_density(b.cells, at));
     kernel::store_first(hn::IfThenElseZero(hn::Gt(density, hn::Zero(d)), value), pdf + at, HWY_MIN(lanes, size - at));
   }
 }

@@ -54,6 +54,39 @@ HWY_INLINE float inverse_integral(float a, float e, float rise) {
   return std::min(std::max(twice / (a + root), 0.0f), 1.0f);
 }
 
+/// See Warped; a lane for each of the terms.
+struct SingleWarped {
+  float t, slope, bend, third;
+};
+
+HWY_INLINE float sum_of(kernel::Float4 a) { return (a[0] + a[2]) + (a[1] + a[3]); }
+
+HWY_INLINE SingleWarped warped(const HeightWarp& w, float y) {
+  static_assert(HeightWarp::terms == 4);
+  const kernel::Float4 width = kernel::load_four(w.width.data()), inverse = 1.0f / (y + width);
+  const kernel::Float4 term = kernel::load_four(w.rise.data()) * inverse, part = term * (width * inverse), next = part * inverse;
+  return {y * (w.line + sum_of(term)), w.line + sum_of(part), sum_of(next), sum_of(next * inverse)};
+}
+
+struct SingleUnwarped {
+  float height, slope;
+};
+
+/// See the one of a vector.
+HWY_INLINE SingleUnwarped unwarped(const Table& table, std::size_t cell, float in_cell) {
+  const WarpCell& c = table.cell[cell];
+  const float t = (static_cast<float>(cell) + in_cell) * (1.0f / static_cast<float>(row_cells));
+  float y = c.lower + c.height * (in_cell / (in_cell + c.bend * (1 - in_cell))), slope = 1;
+  for (int step = 0; step < table.warp.steps; ++step) {
+    const SingleWarped at = warped(table.warp, y);
+    const float rest = t - at.t, change = rest * at.slope / (at.slope * at.slope - rest * at.bend);
+    const float next = std::min(std::max(y + change, c.lower), c.lower + c.height), moved = next - y;
+    slope = at.slope + moved * (3 * at.third * moved - 2 * at.bend);
+    y = next;
+  }
+  return {std::min(y, 1.0f), slope};
+}
+
 template <std::size_t n>
 HWY_INLINE std::size_t search(const RowsOfPair<n>& rows, float target) {
   return rows.cell(rows.quarter(target), target);
@@ -78,16 +111,15 @@ HWY_INLINE float draw_single(const Table& t, const Vec3f& wo, float choice, floa
   const std::size_t cell = search(conditional, target);
   kernel::store_four(conditional.node(cell), node);
   kernel::store_four(w.conditional(t, 1 - chosen, column, to_column).node(cell), other);
-  const float width = t.edge[cell + 1] - t.edge[cell];
-  const float in_cell = inverse_integral(node[1] * width, node[3] * width, target - node[0]);
-  Map::Half h = w.map.half_vector(std::min(t.edge[cell] + in_cell * width, 1.0f),
-                                  (static_cast<float>(column) + to_column) * (1 / columns));
+  const float in_cell = inverse_integral(node[1], node[3], (target - node[0]) * static_cast<float>(row_cells));
+  const SingleUnwarped at = unwarped(t, cell, in_cell);
+  Map::Half h = w.map.half_vector(at.height, (static_cast<float>(column) + to_column) * (1 / columns));
   if (sided < 0) h.y = -h.y;
   const float twice = h.wo_h + h.wo_h;
   wi = {twice * (h.x * w.e_x - h.y * w.e_y) - wo.x, twice * (h.x * w.e_y + h.y * w.e_x) - wo.y,
         std::max(twice * h.z - w.map.c, min_drawn_cosine)};
   const float to_other = chosen == 1 ? 1 - w.to_view : w.to_view;
-  return ((1 - to_other) * density_in_cell(node, in_cell) + to_other * density_in_cell(other, in_cell)) / (2 * h.area);
+  return ((1 - to_other) * density_in_cell(node, in_cell) + to_other * density_in_cell(other, in_cell)) * at.slope / (2 * h.area);
 }
 
 /// Density of draw_single at a pair above the horizon.
@@ -97,14 +129,13 @@ HWY_INLINE float pdf_single(const Table& t, const Vec3f& wi, const Vec3f& wo) {
   const Map::Point p = w.map.point(x * w.e_x + y * w.e_y, y * w.e_x - x * w.e_y, wi.z + w.map.c);
   const float at = p.v * static_cast<float>(Table::columns);
   const std::size_t column = std::min(static_cast<std::size_t>(at), Table::columns - 1);
-  std::size_t cell = 0;
-  for (std::size_t first = 1; first < row_cells; first += 8)
-    cell += kernel::count_up_to(kernel::load_eight(t.edge.data() + first, 0.0f), std::min(p.height, below_one));
+  const SingleWarped height = warped(t.warp, p.height);
+  const float row = height.t * static_cast<float>(row_cells);
+  const std::size_t cell = std::min(static_cast<std::size_t>(row), row_cells - 1);
   float node[4];
   const float to_column = std::min(at - static_cast<float>(column), 1.0f);
   kernel::store_four((1 - w.to_view) * w.conditional(t, 0, column, to_column).node(cell) + w.to_view * w.conditional(t, 1, column, to_column).node(cell), node);
-  const float in_cell = std::min((p.height - t.edge[cell]) / (t.edge[cell + 1] - t.edge[cell]), 1.0f);
-  return density_in_cell(node, in_cell) / (2 * p.area);
+  return density_in_cell(node, std::min(row - static_cast<float>(cell), 1.0f)) * height.slope / (2 * p.area);
 }
 
 /// Share of the second component for one view.
