@@ -67,6 +67,14 @@ Evaluator tabulated(const std::vector<std::byte>& file, const std::string& level
   };
 }
 
+Evaluator density(std::span<const std::byte> file) {
+  DecodeOptions options;
+  options.level = EvalLevel::fast;
+  return [material = Material::decode(file, options)](const Vec3f& wi, const Vec3f& wo) {
+    return std::vector<double>{static_cast<double>(material.pdf(wi, wo))};
+  };
+}
+
 }  // namespace
 
 void evaluate(std::span<const std::byte> bytes, std::vector<Expectation>& rows) {
@@ -74,18 +82,22 @@ void evaluate(std::span<const std::byte> bytes, std::vector<Expectation>& rows) 
   for (Expectation& row : rows) {
     auto& f = evaluators[{row.level, row.refinements}];
     if (!f)
-      f = row.level == "direct" ? direct(cut(bytes, row.refinements))
-                                : tabulated(cut(bytes, row.refinements), row.level);
+      f = row.level == "pdf"      ? density(bytes)
+          : row.level == "direct" ? direct(cut(bytes, row.refinements))
+                                  : tabulated(cut(bytes, row.refinements), row.level);
     row.f = f(row.wi, row.wo);
   }
 }
 
 std::vector<Expectation> expectations(std::span<const std::byte> bytes) {
-  const int refinements = container::unpack(bytes, {}, false).refinements_total;
+  const container::Unpacked unpacked = container::unpack(bytes, {}, false);
+  const int refinements = unpacked.refinements_total;
   std::vector<Expectation> rows;
   for (int r = 0; r <= refinements; ++r)
     for (const char* level : {"fast", "balanced", "exact", "direct"})
       for (const auto& [wi, wo] : pairs()) rows.push_back({level, r, wi, wo, {}});
+  if (!unpacked.content.sampling.empty())
+    for (const auto& [wi, wo] : pairs()) rows.push_back({"pdf", refinements, wi, wo, {}});
   evaluate(bytes, rows);
   return rows;
 }

@@ -8,6 +8,7 @@
 #include "encode/error_model.h"
 #include "encode/layers.h"
 #include "encode/quantiser.h"
+#include "encode/stored_cdf.h"
 #include "support/slice_measurement.h"
 #include "support/small_measurement.h"
 
@@ -153,6 +154,13 @@ std::vector<NamedContent> make_contents() {
     Content c = frame(test::bumpy_measurement({90, 45, 60}, 31), true);
     c.residual = {};
     all.push_back({"spectral-coded-lobes", std::move(c)});
+  }
+  {
+    Content c = frame(golden_source(), true);
+    c.residual = {};
+    c.lobes = container::quantise_lobes({3, {{LobeKind::lambert, 1, 1, {0.2, 0.15, 0.1}}, {LobeKind::ggx, 0.12, 1, {0.05, 0.06, 0.07}}}});
+    const auto with_tables = encode::with_stored_cdf(container::pack(c), EvalLevel::fast);
+    all.push_back({"rgb-stored-cdf", container::unpack(with_tables, {}, false).content});
   }
   return all;
 }

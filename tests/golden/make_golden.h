@@ -26,10 +26,10 @@ std::vector<NamedContent> make_contents();
 
 /// One row of an expectation file: f at a pair, from a file cut after `refinements`.
 struct Expectation {
-  std::string level;  ///< fast, balanced, exact, or direct: the sum of the basis in double, without a table
+  std::string level;  ///< fast, balanced, exact, or direct: the sum of the basis in double, without a table; pdf: of the stored tables
   int refinements = 0;
   Vec3f wi{0, 0, 0}, wo{0, 0, 0};
-  std::vector<double> f;
+  std::vector<double> f;  ///< or the density of sampling
 };
 
 /// Fills in the values of rows as this library finds them.

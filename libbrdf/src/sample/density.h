@@ -35,7 +35,7 @@ struct DensityRows {
   std::vector<DensityRow> rows;
 };
 
-/// Where the inverse of the warp begins in a cell of t: near S = lower + height f / (f + bend (1 - f)) at a share f of it,
+/// Where the inverse of the warp begins in a cell of t: S about = lower + height f / (f + bend (1 - f)) at a share f of it,
 /// which has the ends of the warp's inverse and its slope at the lower one.
 struct alignas(16) WarpCell {
   float lower = 0, height = 0, bend = 1, unused = 0;
