@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 // The four analytic models: closed forms, refusals, what a handle says of itself.
+#include "support/analytic_models.h"
 #include "support/analytic_reference.h"
 #include "support/direction_batch.h"
 
@@ -12,6 +13,7 @@
 #include <cmath>
 #include <numbers>
 #include <utility>
+#include <vector>
 
 namespace {
 
@@ -113,6 +115,44 @@ TEST(AnalyticModels, TwoRoughnessesThatMeetAreOne) {
   }
   EXPECT_EQ(one.lobes().lobes.size(), 1U);
   EXPECT_TRUE(two.lobes().lobes.empty());
+}
+
+TEST(AnalyticModels, EveryLevelIsTheSame) {
+  for (const test::NamedModel& named : test::all_models()) {
+    SCOPED_TRACE(named.name);
+    const Material m = Material::from_analytic(named.model);
+    EXPECT_TRUE(m.sampling());
+    EXPECT_EQ(m.sampling_bytes(), 0U);
+    EXPECT_EQ(m.info().refinements_total, 0);
+    EXPECT_TRUE(m.info().errors.empty());
+    EXPECT_LT(m.resident_bytes(), 4096U);
+    const auto channels = static_cast<std::size_t>(m.channels());
+    const Vec3f wi = test::direction_at(0.7, 1), wo = test::direction_at(0.5, 3.5), u{0.7f, 0.2f, 0.4f};
+    std::vector<float> f(channels), g(channels), weight(channels), again(channels);
+    m.eval(wi, wo, f);
+    const Sample s = m.sample(wo, u, weight);
+    for (const EvalLevel level : {EvalLevel::fast, EvalLevel::balanced, EvalLevel::exact})
+      for (const bool sampling : {false, true}) {
+        const Material prepared = m.prepare(level, sampling);
+        EXPECT_EQ(prepared.level(), level);
+        EXPECT_TRUE(prepared.sampling());
+        ASSERT_NE(prepared.analytic(), nullptr);
+        EXPECT_STREQ(name_of(*prepared.analytic()), name_of(named.model));
+        EXPECT_EQ(prepared.scatter_flags(), m.scatter_flags());
+        prepared.eval(wi, wo, g);
+        EXPECT_EQ(f, g);
+        const Sample t = prepared.sample(wo, u, again);
+        EXPECT_EQ(s.wi, t.wi);
+        EXPECT_EQ(s.pdf, t.pdf);
+        EXPECT_EQ(weight, again);
+      }
+  }
+}
+
+TEST(AnalyticModels, OthersHaveNoFormula) {
+  const Material m = Material::from_lobes({1, {{LobeKind::lambert, 1, 1, {0.5}}}});
+  EXPECT_EQ(m.analytic(), nullptr);
+  EXPECT_EQ(m.scatter_flags(), static_cast<std::uint32_t>(sample_reflection));
 }
 
 }  // namespace
