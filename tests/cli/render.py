@@ -135,7 +135,7 @@ class Render(unittest.TestCase):
     def test_interrupt_writes_what_there_is(self):
         out, png = self.out("cut.exr"), self.out("cut.png")
         child = subprocess.Popen([BRDF_RENDER, scene(), "-o", out, "--png", png, "--spp", "1000000", "--json"], stdout=subprocess.PIPE,
-                                 stderr=subprocess.PIPE)
+                                 stderr=subprocess.PIPE, preexec_fn=lambda: signal.signal(signal.SIGINT, signal.SIG_DFL))
         time.sleep(2)
         child.send_signal(signal.SIGINT)
         stdout, stderr = child.communicate(timeout=60)
