@@ -36,7 +36,7 @@ Image scaled(Image image, float factor) {
 float largest(const Plane& plane) { return *std::max_element(plane.values.begin(), plane.values.end()); }
 
 // The golden values below are what tests/support/metric_pictures.py printed (its first lines tell how to run it) with
-// flip-evaluator 1.7 and scikit-image 0.26.0.
+// flip-evaluator 1.7 and scikit-image 0.26.0. tests/cli/image_peers.py compares with them anew where they are installed.
 TEST(ImageMetrics, PsnrAndSsimAreScikitImages) {
   const MetricPictures p = metric_pictures();
   EXPECT_NEAR(psnr(p.reference, p.candidate, 0), 25.13783861790269, 1e-6);
