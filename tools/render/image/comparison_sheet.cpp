@@ -4,6 +4,7 @@
 #include "image/comparison_sheet.h"
 #include "image/figure_text.h"
 #include "image/image_file.h"
+#include "image/luminance.h"
 
 #include <brdf/error.h>
 

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "image/flip.h"
+#include "image/luminance.h"
 
 #include <algorithm>
 #include <cmath>

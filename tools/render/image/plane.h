@@ -27,9 +27,6 @@ double mean(const Plane& plane);
 /// Correlation with the product of two odd kernels, whose middle is the pixel. Beyond the border the nearest pixel counts.
 Plane filtered(const Plane& plane, std::span<const float> horizontal, std::span<const float> vertical);
 
-/// Relative luminance of linear BT.709: its row of the matrix to XYZ.
-inline float luminance(const Vec3f& rgb) noexcept { return 0.2126F * rgb.x + 0.7152F * rgb.y + 0.0722F * rgb.z; }
-
 /// Throws Error invalid_argument with both sizes unless the pictures have the same and at least one pixel.
 void check_same_size(const Image& reference, const Image& candidate);
 

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "image/display.h"
+#include "image/luminance.h"
 #include "image/ssim.h"
 
 #include <brdf/error.h>
