@@ -5,6 +5,7 @@
 #include "support/expect_error.h"
 #include "support/temporary_folder.h"
 
+#include <png.h>
 #include <cmath>
 #include <fstream>
 
@@ -91,6 +92,23 @@ TEST(ImageFile, EmptyPicturesAreRefused) {
   expect_error(ErrorCode::invalid_argument, {"a.exr", "without pixels"}, [&] { write_exr(Image(), folder / "a.exr"); });
   expect_error(ErrorCode::invalid_argument, {"a.png", "without pixels"}, [&] { write_png(Image(), folder / "a.png", 0); });
   expect_error(ErrorCode::invalid_argument, {"a.png", "exposure"}, [&] { write_png(gradient(2, 2), folder / "a.png", NAN); });
+}
+
+TEST(PngFile, LibpngReadsWhatWasDevelopedAndIsToldThatItIsSrgb) {
+  const TemporaryFolder folder;
+  Image image(19, 7);
+  for (std::size_t i = 0; i < image.pixels.size(); ++i) image.pixels[i] = {static_cast<float>(i) / 100, 0.5F, 2.0F - static_cast<float>(i) / 50};
+  write_png(image, folder / "a.png", -0.5F);
+  ::png_image png{};
+  png.version = PNG_IMAGE_VERSION;
+  ASSERT_NE(::png_image_begin_read_from_file(&png, (folder / "a.png").c_str()), 0);
+  ASSERT_EQ(png.width, 19u);
+  ASSERT_EQ(png.height, 7u);
+  png.format = PNG_FORMAT_RGB;
+  std::vector<Rgb8> pixels(image.pixels.size());
+  ASSERT_NE(::png_image_finish_read(&png, nullptr, pixels.data(), 0, nullptr), 0);
+  EXPECT_EQ(pixels, developed(image, -0.5F).pixels);
+  EXPECT_NE(bytes_of(folder / "a.png").find("sRGB"), std::string::npos);
 }
 
 TEST(Srgb, TransferFunctionAtItsKnownPoints) {
