@@ -14,6 +14,7 @@ import tempfile
 MODULES = {
     "base": [],
     "geometry": ["base"],
+    "profile": ["base", "geometry"],
     "lobes": ["base", "geometry"],
     "ingest": ["base", "geometry"],
     "residual": ["base", "geometry", "lobes"],
@@ -35,6 +36,7 @@ PUBLIC = {
     "brdf/lobes.h": {"lobes", "fit", "residual", "container", "eval", "sample", "decode", "encode"},
     "brdf/material.h": {"container", "eval", "sample", "decode", "encode"},
     "brdf/check.h": {"decode"},
+    "brdf/profile.h": {"profile", "encode"},
     "brdf/ingest.h": {"ingest", "encode"},
     "brdf/fit.h": {"fit", "encode"},
     "brdf/metrics.h": {"metrics", "encode"},
@@ -43,7 +45,7 @@ PUBLIC = {
 
 # What brdf::decode may not see, by the start of an include's name: a renderer links no fitter.
 ENCODER_ONLY = ("ceres/", "Eigen/", "glog/", "tbb/", "oneapi/", "nlohmann/", "CLI/")
-DECODE_MODULES = {"base", "geometry", "lobes", "residual", "slices", "container", "eval", "sample", "decode"}
+DECODE_MODULES = {"base", "geometry", "profile", "lobes", "residual", "slices", "container", "eval", "sample", "decode"}
 
 MAX_LINES = 400
 BAD_STEMS = {"utils", "util", "misc", "common"}
