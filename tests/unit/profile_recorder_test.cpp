@@ -27,10 +27,10 @@ TEST(ProfileRecorder, CountsWhatIsAskedOfEachSlot) {
   EXPECT_EQ(floor.operations, (std::array<std::uint64_t, 4>{2, 0, 7, 0}));
   EXPECT_DOUBLE_EQ(floor.contribution(), 0.75);
   EXPECT_EQ(floor.contributions, 2U);
-  EXPECT_NEAR(floor.range_i.least, 30 * degrees, 1e-6);
-  EXPECT_NEAR(floor.range_i.most, 40 * degrees, 1e-6);
-  EXPECT_NEAR(floor.range_o.least, 10 * degrees, 1e-6);
-  EXPECT_NEAR(floor.range_o.most, 60 * degrees, 1e-6);
+  EXPECT_NEAR(floor.range_i.least, 30 * degrees, 1e-4);
+  EXPECT_NEAR(floor.range_i.most, 40 * degrees, 1e-4);
+  EXPECT_NEAR(floor.range_o.least, 10 * degrees, 1e-4);
+  EXPECT_NEAR(floor.range_o.most, 60 * degrees, 1e-4);
   EXPECT_EQ(floor.theta_o[12], static_cast<std::uint64_t>(0.5 * MaterialProfile::units));
   EXPECT_TRUE(p.at("ball").asked(ProfileOperation::sample));
   EXPECT_FALSE(floor.asked(ProfileOperation::sample));
@@ -91,6 +91,15 @@ TEST(ProfileRecorder, NarrowLobesHaveBinsOfTheirOwn) {
   EXPECT_NEAR(ProfileGrid::theta_d_edge(ProfileGrid::theta_d), std::numbers::pi / 2, 1e-12);
   EXPECT_NEAR(ProfileGrid::phi_d_edge(ProfileGrid::phi_d), std::numbers::pi, 1e-12);
   EXPECT_NEAR(ProfileGrid::phi_d_edge(ProfileGrid::phi_d / 2), std::numbers::pi / 2, 1e-12);
+}
+
+TEST(ProfileRecorder, SixteenthsOfTheCircleFollowTheHalfVector) {
+  for (int i = 0; i < 16; ++i)
+    for (const float within : {0.5F, 11.0F, 22.0F}) {
+      const float phi = 22.5F * static_cast<float>(i) + within;
+      EXPECT_EQ(profile_place(at(30, phi), at(30, phi)).phi_h, i) << phi;
+      EXPECT_NEAR(profile_place(at(phi / 4, 0), at(30, 0)).theta_i, phi / 4 * degrees, 1e-4);
+    }
 }
 
 TEST(ProfileRecorder, SlotsOfOtherNamesDoNotMerge) {

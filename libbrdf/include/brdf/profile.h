@@ -48,7 +48,7 @@ struct ProfilePlace {
   std::uint32_t cell = ProfileGrid::cells;  ///< `cells`: not a reflection above the surface
   std::uint8_t phi_h = 0, theta_i_bin = 0, theta_o_bin = 0;
   bool transmission = false;
-  float theta_i = 0, theta_o = 0;           ///< radians
+  float theta_i = 0, theta_o = 0;           ///< radians, to 10^-4
 };
 
 /// Unit vectors away from the surface, of either side. Pairs below it on both sides, and what is no number, have no cell.
