@@ -24,7 +24,7 @@ std::vector<std::byte> sound_file() {
 /// The same with the checksum that belongs to it.
 std::vector<std::byte> sealed(std::vector<std::byte> bytes) {
   const std::span all(bytes);
-  base::store_little_endian(base::xxh3_64(all.first(all.size() - 8)), all.last(8));
+  base::store_little_endian(base::xxh32(all.first(all.size() - 4)), all.last(4));
   return bytes;
 }
 
@@ -33,7 +33,7 @@ std::vector<std::byte> file_of(std::initializer_list<int> body, std::size_t zero
   for (const char c : {'B', 'R', 'P', 'F'}) bytes.push_back(static_cast<std::byte>(c));
   for (const int b : {1, 48, 24, 12, 16, 18}) bytes.push_back(static_cast<std::byte>(b));
   for (const int b : body) bytes.push_back(static_cast<std::byte>(b));
-  bytes.resize(bytes.size() + zeros + 8);
+  bytes.resize(bytes.size() + zeros + 4);
   return sealed(std::move(bytes));
 }
 
@@ -57,7 +57,7 @@ TEST(ProfileFile, EveryChangedBitIsRefused) {
 
 TEST(ProfileFile, WhatFollowsTheEndIsRefused) {
   std::vector<std::byte> bytes = sound_file();
-  bytes.insert(bytes.end() - 8, std::byte{0});
+  bytes.insert(bytes.end() - 4, std::byte{0});
   test::expect_error(ErrorCode::malformed, {"1 bytes follow"}, [&] { Profile::read(sealed(bytes)); });
 }
 
@@ -90,16 +90,16 @@ TEST(ProfileFile, FieldsThatMeanNothingAreRefused) {
 
 TEST(ProfileFile, NamesAscend) {
   std::vector<std::byte> twice = file_of({2, 1, 'a'}, sums + 1);
-  twice.resize(twice.size() - 8);
+  twice.resize(twice.size() - 4);
   for (const char c : {'\x01', 'a'}) twice.push_back(static_cast<std::byte>(c));
-  twice.resize(twice.size() + sums + 1 + 8);
+  twice.resize(twice.size() + sums + 1 + 4);
   test::expect_error(ErrorCode::malformed, {"do not ascend"}, [&] { Profile::read(sealed(twice)); });
 }
 
 TEST(ProfileFile, CellsAreListedOnceWithinTheGrid) {
   const auto with_cells = [](std::initializer_list<int> cells, float least = 0, float most = 1) {
     std::vector<std::byte> bytes = file_of({1, 1, 'a'}, sums);
-    bytes.resize(bytes.size() - 8);
+    bytes.resize(bytes.size() - 4);
     bytes.push_back(static_cast<std::byte>(1));
     for (const float v : {least, most, 0.0F, 1.0F}) {
       std::byte raw[4];
@@ -107,7 +107,7 @@ TEST(ProfileFile, CellsAreListedOnceWithinTheGrid) {
       bytes.insert(bytes.end(), raw, raw + 4);
     }
     for (const int b : cells) bytes.push_back(static_cast<std::byte>(b));
-    bytes.resize(bytes.size() + 8);
+    bytes.resize(bytes.size() + 4);
     return sealed(std::move(bytes));
   };
   EXPECT_EQ(Profile::read(with_cells({0xFF, 0x6B, 5})).at("a").histogram[13823], 5U);

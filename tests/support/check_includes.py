@@ -24,7 +24,7 @@ MODULES = {
     "sample": ["base", "geometry", "lobes", "eval"],
     "decode": ["container", "residual", "slices", "eval", "sample", "lobes", "base"],
     "fit": ["ingest", "lobes", "geometry", "base"],
-    "metrics": ["base", "geometry"],
+    "metrics": ["base", "geometry", "profile"],
 }
 MODULES["encode"] = sorted(MODULES)
 
@@ -36,7 +36,7 @@ PUBLIC = {
     "brdf/lobes.h": {"lobes", "fit", "residual", "container", "eval", "sample", "decode", "encode"},
     "brdf/material.h": {"container", "eval", "sample", "decode", "encode"},
     "brdf/check.h": {"decode"},
-    "brdf/profile.h": {"profile", "encode"},
+    "brdf/profile.h": {"profile", "metrics", "encode"},
     "brdf/ingest.h": {"ingest", "encode"},
     "brdf/fit.h": {"fit", "encode"},
     "brdf/metrics.h": {"metrics", "encode"},

@@ -47,6 +47,7 @@ struct Content {
   std::vector<RecordedError> errors;  ///< refinement 0 at `fast`; each further one at `balanced` and `exact`
   std::optional<Provenance> provenance;
   std::string fitter;
+  std::optional<FittedFor> purpose;
   std::vector<std::byte> sampling;  ///< see density_codes.h; empty without
 };
 

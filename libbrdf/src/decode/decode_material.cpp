@@ -80,6 +80,7 @@ std::shared_ptr<const Material::Impl> decode_impl(std::span<const std::byte> byt
   info.errors = std::move(content.errors);
   if (content.provenance) info.provenance = std::move(*content.provenance);
   info.fitter = std::move(content.fitter);
+  info.fitted_for = content.purpose;
 
   auto source = std::make_shared<Source>();
   source->coefficients = residual::dequantise(content.residual, content.component.transform, content.residual.layers.size());

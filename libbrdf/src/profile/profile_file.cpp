@@ -15,7 +15,7 @@ namespace {
 
 constexpr std::array<char, 4> magic = {'B', 'R', 'P', 'F'};
 constexpr std::uint8_t version = 1;
-constexpr std::size_t checksum_bytes = 8;
+constexpr std::size_t checksum_bytes = 4;
 constexpr std::size_t longest_name = 255;
 constexpr std::array<std::uint8_t, 5> axes = {ProfileGrid::theta_h, ProfileGrid::theta_d, ProfileGrid::phi_d, ProfileGrid::phi_h,
                                               ProfileGrid::theta};
@@ -135,7 +135,7 @@ std::vector<std::byte> Profile::write() const {
     out.text(slot);
     write_material(out, asked);
   }
-  out.value(base::xxh3_64(out.bytes()));
+  out.value(base::xxh32(out.bytes()));
   return std::move(out.bytes());
 }
 
@@ -154,7 +154,7 @@ Profile Profile::read(std::span<const std::byte> bytes, const ProfileLimits& lim
   head.take(axes.size() + 1 + checksum_bytes, "its header");
 
   const auto body = bytes.first(bytes.size() - checksum_bytes);
-  if (base::xxh3_64(body) != base::load_little_endian<std::uint64_t>(bytes.last(checksum_bytes)))
+  if (base::xxh32(body) != base::load_little_endian<std::uint32_t>(bytes.last(checksum_bytes)))
     throw Error(ErrorCode::checksum, "profile: the checksum does not match, the file is damaged or cut short");
   base::ByteReader in(body, "profile");
   in.take(magic.size() + 1, "its header");
