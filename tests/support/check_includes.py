@@ -41,6 +41,7 @@ PUBLIC = {
     "brdf/fit.h": {"fit", "encode"},
     "brdf/metrics.h": {"metrics", "encode"},
     "brdf/encode.h": {"encode"},
+    "brdf/trade.h": {"encode"},
 }
 
 # What brdf::decode may not see, by the start of an include's name: a renderer links no fitter.

@@ -17,6 +17,7 @@ namespace {
 
 constexpr int places = 3;              // along each axis of a cell of the profile
 constexpr double asked_of_fit = 0.9;   // lobes carry what no residual corrects, so they stay closer to all of the measurement
+constexpr double least_slope = 0.05, largest_slope = 20;  // squares, of the samples of the fit
 constexpr double darkest_cell = 1e-3;  // of the mean f that was asked for, as in the metric
 
 /// Cell of an axis of `n` cells, even in u.
@@ -114,7 +115,10 @@ fit::SampleSet QueryWeight::samples(const Measurement& m, int count) const {
     if (!std::all_of(f.begin(), f.end(), [](double v) { return std::isfinite(v); })) continue;
     asked.wi.push_back(wi);
     asked.wo.push_back(wo);
-    asked.weight.push_back(1);
+    // the loss is of log f, what is wanted of f relative to its surroundings: d f = f d log f
+    double mean = 0;
+    for (const double v : f) mean += std::max(v, 0.0) / static_cast<double>(n);
+    asked.weight.push_back(std::clamp(mean * mean / (c.scale * c.scale), least_slope, largest_slope));
     for (const double v : f) asked.values.push_back(std::max(v, 0.0));
   }
   if (asked.size() == 0) return usual;
