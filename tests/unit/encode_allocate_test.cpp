@@ -82,7 +82,7 @@ TEST(Allocate, NeverExceedsTheBudgetAndIsNearTheBestChoice) {
     EXPECT_LE(a.error, best.error + a.price * (budget - a.cost) + a.price * 40 + 1e-9);
     optimal += a.error <= best.error + 1e-9 ? 1 : 0;
   }
-  EXPECT_GT(optimal, cases * 7 / 10);
+  EXPECT_GT(optimal, cases * 19 / 20);
 }
 
 // Budgets that whole segments of the hulls use up are met by the best of all choices.

@@ -81,7 +81,7 @@ TEST(Trade, AnAllocationSpendsWhereItCounts) {
   for (const TradePoint& p : points) one.push_back({static_cast<double>(p.bytes), p.error.rms * p.error.rms});
   const std::vector<std::vector<Alternative>> items = {one, one};
   const double budget = one.front().cost + one.back().cost;
-  const Allocation a = allocate(items, std::vector<double>{1, 1e-4}, budget);
+  const Allocation a = allocate(items, std::vector<double>{1, 1e-9}, budget);
   EXPECT_LE(a.cost, budget);
   EXPECT_EQ(a.choice[0], one.size() - 1);
   EXPECT_EQ(a.choice[1], 0U);

@@ -64,8 +64,8 @@ struct Allocation {
 
 /// Chooses one alternative per item so that the sum of weight * error is small and the sum of costs at most `budget`:
 /// segments of the lower convex hulls by their slope (Shoham and Gersho 1988, Efficient bit allocation for an arbitrary set
-/// of quantizers), which is optimal wherever the budget is used up by whole segments; then single steps, off the hulls as
-/// well, as long as one fits. Ties go to the earlier item and alternative. Throws Error: invalid_argument (no alternative,
+/// of quantizers), which is optimal wherever the budget is used up by whole segments; then single steps and exchanges between
+/// two items (the latter up to 2000 alternatives), off the hulls as well, as long as one lowers the error. Ties go to the earlier item and alternative. Throws Error: invalid_argument (no alternative,
 /// other numbers of weights and items, what is negative or no number), target_not_met (its sentence says the smallest budget).
 Allocation allocate(std::span<const std::vector<Alternative>> items, std::span<const double> weights, double budget);
 

@@ -37,6 +37,51 @@ struct Segment {
   double cost, slope;
 };
 
+/// An alternative of an item, seen from its present choice.
+struct Move {
+  std::size_t item = 0, to = 0;
+  double cost = 0, gain = 0;
+};
+
+/// Takes the move, or the two of different items, that lower the error most among those that the budget allows; false when
+/// none does. Pairs are tried where there are few enough of them.
+bool improve(std::span<const std::vector<Alternative>> items, std::span<const double> weights, double budget, Allocation& now) {
+  constexpr std::size_t most_paired = 2000;
+  constexpr double least_gain = 1e-12;  // of the error: what rounding alone may make of nothing
+  std::vector<Move> moves;
+  double error = 0;
+  for (std::size_t i = 0; i < items.size(); ++i) {
+    const Alternative& here = items[i][now.choice[i]];
+    error += weights[i] * here.error;
+    for (std::size_t k = 0; k < items[i].size(); ++k)
+      if (k != now.choice[i]) moves.push_back({i, k, items[i][k].cost - here.cost, weights[i] * (here.error - items[i][k].error)});
+  }
+  const double room = budget - now.cost;
+  double best = least_gain * error;
+  const Move *first = nullptr, *second = nullptr;
+  for (const Move& a : moves) {
+    if (a.cost <= room && a.gain > best) {
+      best = a.gain;
+      first = &a;
+      second = nullptr;
+    }
+    if (a.gain <= 0 || moves.size() > most_paired) continue;  // of a pair one gains
+    for (const Move& b : moves)
+      if (b.item != a.item && a.cost + b.cost <= room && a.gain + b.gain > best) {
+        best = a.gain + b.gain;
+        first = &a;
+        second = &b;
+      }
+  }
+  if (first == nullptr) return false;
+  for (const Move* m : {first, second}) {
+    if (m == nullptr) continue;
+    now.choice[m->item] = m->to;
+    now.cost += m->cost;
+  }
+  return true;
+}
+
 void require_valid(std::span<const std::vector<Alternative>> items, std::span<const double> weights, double budget) {
   const auto refuse = [](const std::string& sentence) { throw Error(ErrorCode::invalid_argument, "allocate: " + sentence); };
   const auto number = [](double v) { return std::isfinite(v) && v >= 0; };
@@ -82,23 +127,7 @@ Allocation allocate(std::span<const std::vector<Alternative>> items, std::span<c
     found.choice[s.item] = s.to;
     found.cost += s.cost;
   }
-  // what is left: the step that lowers the error most among those that fit
-  for (;;) {
-    double best = 0;
-    std::size_t item = 0, to = 0;
-    for (std::size_t i = 0; i < items.size(); ++i) {
-      const Alternative& now = items[i][found.choice[i]];
-      for (std::size_t k = 0; k < items[i].size(); ++k) {
-        const double gain = weights[i] * (now.error - items[i][k].error);
-        if (gain <= best || found.cost + items[i][k].cost - now.cost > budget) continue;
-        best = gain;
-        item = i;
-        to = k;
-      }
-    }
-    if (!(best > 0)) break;
-    found.cost += items[item][to].cost - items[item][found.choice[item]].cost;
-    found.choice[item] = to;
+  while (improve(items, weights, budget, found)) {
   }
   found.cost = found.error = 0;
   for (std::size_t i = 0; i < items.size(); ++i) {
