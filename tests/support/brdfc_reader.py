@@ -35,7 +35,7 @@ class Brdfc:
     def __init__(self, data, refinements=None, prefix=False):
         self.lobes, self.layers, self.errors, self.order = None, [], [], []
         self.model = None
-        self.table = self.grid = None
+        self.table = self.grid = self.fitted_for = None
         self.read_header(data)
         require(len(data) <= self.total, "the file is longer than its header says")
         require(prefix or len(data) == self.total, "the file is cut")
@@ -103,8 +103,27 @@ class Brdfc:
             self.read_provenance(payload)
         elif code == 0x8A:
             require(self.model is None, "sampling tables of an analytic model")
+        elif code == 0x8B:
+            self.read_purpose(payload)
         else:
             require(code & 0x80, f"unknown critical chunk {code}")
+
+    def read_purpose(self, payload):
+        require(len(payload) == 9, "the fitted-for chunk has another length")
+        asked, *angles = payload[:5]
+        require(asked >> 4 < 3 and max(angles) <= 180, "the fitted-for chunk says what cannot be")
+        share, pixels, rms, log_error = payload[5:]
+
+        def power(code, one):
+            return 2 ** ((code - one) / 8) if code else 0.0
+
+        names = ("eval", "sample", "pdf", "transmission")
+        self.fitted_for = {
+            "operations": [name for k, name in enumerate(names) if asked >> k & 1],
+            "level": ("fast", "balanced", "exact")[asked >> 4],
+            "theta_i": [a / 2 for a in angles[:2]], "theta_o": [a / 2 for a in angles[2:]],
+            "share": power(share, 255), "footprint_pixels": power(pixels, 64),
+            "rms": power(rms, 240), "log_error": power(log_error, 240)}
 
     def read_errors(self, refinement, levels, payload):
         require(len(payload) >= 2 * len(levels), "a chunk ends within its errors")

@@ -14,6 +14,7 @@ import tempfile
 MODULES = {
     "base": [],
     "geometry": ["base"],
+    "profile": ["base", "geometry"],
     "lobes": ["base", "geometry"],
     "ingest": ["base", "geometry"],
     "residual": ["base", "geometry", "lobes"],
@@ -24,7 +25,7 @@ MODULES = {
     "sample": ["base", "geometry", "lobes", "analytic", "eval"],
     "decode": ["container", "residual", "analytic", "slices", "eval", "sample", "lobes", "base"],
     "fit": ["ingest", "lobes", "geometry", "base"],
-    "metrics": ["base", "geometry"],
+    "metrics": ["base", "geometry", "profile"],
 }
 MODULES["encode"] = sorted(MODULES)
 
@@ -36,15 +37,17 @@ PUBLIC = {
     "brdf/lobes.h": {"lobes", "fit", "residual", "analytic", "container", "eval", "sample", "decode", "encode"},
     "brdf/material.h": {"analytic", "container", "eval", "sample", "decode", "encode"},
     "brdf/check.h": {"decode"},
+    "brdf/profile.h": {"profile", "metrics", "encode"},
     "brdf/ingest.h": {"ingest", "encode"},
     "brdf/fit.h": {"fit", "encode"},
     "brdf/metrics.h": {"metrics", "encode"},
     "brdf/encode.h": {"encode"},
+    "brdf/trade.h": {"encode"},
 }
 
 # What brdf::decode may not see, by the start of an include's name: a renderer links no fitter.
 ENCODER_ONLY = ("ceres/", "Eigen/", "glog/", "tbb/", "oneapi/", "nlohmann/", "CLI/")
-DECODE_MODULES = {"base", "geometry", "lobes", "residual", "slices", "analytic", "container", "eval", "sample", "decode"}
+DECODE_MODULES = {"base", "geometry", "profile", "lobes", "residual", "slices", "analytic", "container", "eval", "sample", "decode"}
 
 MAX_LINES = 400
 BAD_STEMS = {"utils", "util", "misc", "common"}

@@ -54,6 +54,8 @@ std::vector<std::string> summary_lines(const CompressReport& r) {
               significant(e.log_mae) + ", psnr_env " + fixed(e.psnr_env, 1) + " dB";
   }
   lines.push_back(errors);
+  if (r.options.profile) lines.push_back("where the scene looks: relative rms " + significant(s.profile.rms) + ", log error " + significant(s.profile.log_error));
+  if (!s.left_out.empty()) lines.push_back(s.left_out);
   // measured files are rarely symmetric: what that meant is said, unless nothing had to be decided
   if (s.reciprocity_asymmetry > 0 || r.options.reciprocity != SymmetryMode::automatic) lines.push_back(s.reciprocity);
   if (s.mirror_asymmetry > 0 || r.options.mirror != SymmetryMode::automatic) lines.push_back(s.mirror);
@@ -123,6 +125,7 @@ Json json_row(const CompressReport& r) {
     entry["psnr_env"] = e.psnr_env;
     row["errors"].push_back(std::move(entry));
   }
+  if (r.options.profile) row["profile"] = {{"rms", s.profile.rms}, {"log_error", s.profile.log_error}, {"share", r.options.profile_share}, {"left_out", s.left_out}};
   row["seconds"] = seconds(s);
   row["seconds_fit"] = s.seconds_fit;
   row["seconds_residual"] = s.seconds_residual;

@@ -2,12 +2,14 @@
 #include "info_report.h"
 
 #include <brdf/check.h>
+#include <brdf/profile.h>
 
 #include "compressed_file.h"
 #include "material_checks.h"
 
 #include <array>
 #include <cstdio>
+#include <numbers>
 
 namespace brdf::cli {
 namespace {
@@ -69,6 +71,23 @@ Json refinements(const MaterialSource& source) {
     list.push_back(std::move(entry));
   }
   return list;
+}
+
+/// Angles in degrees.
+Json purpose(const FittedFor& p) {
+  constexpr double degrees = 180 / std::numbers::pi;
+  Json entry;
+  entry["operations"] = Json::array();
+  for (int k = 0; k < profile_operations; ++k)
+    if ((p.operations >> k & 1) != 0) entry["operations"].push_back(to_string(static_cast<ProfileOperation>(k)));
+  entry["theta_i"] = {static_cast<double>(p.theta_i_least) * degrees, static_cast<double>(p.theta_i_most) * degrees};
+  entry["theta_o"] = {static_cast<double>(p.theta_o_least) * degrees, static_cast<double>(p.theta_o_most) * degrees};
+  entry["share"] = p.share;
+  entry["footprint_pixels"] = p.footprint_pixels;
+  entry["level"] = to_string(p.level);
+  entry["rms"] = p.rms;
+  entry["log_error"] = p.log_error;
+  return entry;
 }
 
 Json lobe_list(const LobeSet& set) {
@@ -154,6 +173,7 @@ Json compressed_info(const MaterialSource& source) {
   row["refinements_total"] = info.refinements_total;
   row["refinements"] = refinements(source);
   row["model"] = model_row(material.analytic());
+  row["fitted_for"] = info.fitted_for ? purpose(*info.fitted_for) : Json();
   row["lobes"] = lobe_list(material.lobes());
   const FileCheck check = check_file(source.bytes(), {}, true);
   for (const EvalLevel level : {EvalLevel::fast, EvalLevel::balanced, EvalLevel::exact}) {

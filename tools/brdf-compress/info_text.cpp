@@ -64,6 +64,17 @@ std::string model_text(const Json& model) {
   return text;
 }
 
+/// What the profile asked that the file was made for; empty for a file of every use.
+std::string purpose(const Json& p) {
+  if (p.is_null()) return "";
+  std::string operations;
+  for (const Json& o : p["operations"]) operations += (operations.empty() ? "" : ", ") + o.get<std::string>();
+  const auto range = [](const Json& r) { return fixed(r[0], 1) + " to " + fixed(r[1], 1); };
+  return "one scene: " + (operations.empty() ? "no queries" : operations) + "; theta_i " + range(p["theta_i"]) + ", theta_o " + range(p["theta_o"]) + " degrees; " +
+         significant(100 * p["share"].get<double>()) + " % of its light, " + significant(p["footprint_pixels"].get<double>()) + " pixels; relative rms " +
+         significant(p["rms"]) + ", log error " + significant(p["log_error"]) + " at " + word(p, "level");
+}
+
 std::string refinement_table(const Json& list) {
   TextTable table;
   table.header = {"refinement", "ends at byte", "level", "log_mae", "psnr_env"};
@@ -137,6 +148,7 @@ std::string compressed_text(const Json& row) {
                                 .add("reciprocal", row["reciprocal"].get<bool>() ? "exactly" : "no")
                                 .add("mirror symmetric", row["mirror_symmetric"].get<bool>() ? "yes" : "no")
                                 .add("largest albedo", albedo)
+                                .add("fit for", purpose(row["fitted_for"]))
                                 .add("resident bytes", by_level(row["resident_bytes"]))
                                 .add("bytes while decoding", by_level(row["temporary_bytes"]))
                                 .text();

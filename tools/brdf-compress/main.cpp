@@ -47,7 +47,8 @@ ExitCode run(int argc, char** argv) {
                          add_bench(program, command_line("brdf-compress", argc, argv)),
                          add_eval(program),
                          add_sample(program),
-                         add_pdf(program)};
+                         add_pdf(program),
+                         add_profile(program)};
   try {
     program.parse(argc, argv);
     const auto chosen = std::find_if(verbs.begin(), verbs.end(), [](const Verb& v) { return v.app->parsed(); });

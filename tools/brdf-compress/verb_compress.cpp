@@ -2,6 +2,7 @@
 #include "compress_report.h"
 #include "input_file.h"
 #include "output_file.h"
+#include "profile_input.h"
 #include "progress_bar.h"
 #include "standard_output.h"
 #include "verb_options.h"
@@ -19,6 +20,7 @@ namespace {
 struct Options {
   std::string input, output;
   EncodeOptions encode;
+  std::string profile, profile_material;
   int threads = 0;
   SamplePosition position = SamplePosition::edge;
   bool force = false;
@@ -26,7 +28,7 @@ struct Options {
 };
 
 constexpr Metric metrics[] = {Metric::log_mae, Metric::cbrt_rms, Metric::psnr_env, Metric::psnr_lights,
-                              Metric::albedo_error};
+                              Metric::albedo_error, Metric::profile};
 
 /// "METRIC=E".
 ErrorTarget parse_target(const std::string& text) {
@@ -67,6 +69,14 @@ ExitCode run(const Options& o) {
   const Measurement m = read_measurement(bytes, o.input, ingest);
   EncodeOptions options = o.encode;
   options.threads = thread_count(o.threads);
+  if (!o.profile.empty()) {
+    const Profile profile = read_profile(o.profile);
+    const std::string slot = choose_slot(profile, o.profile, o.profile_material);
+    options.profile = std::make_shared<const MaterialProfile>(profile.at(slot));
+    options.profile_share = profile.share(slot);
+  } else if (options.target_error && options.target_error->metric == Metric::profile) {
+    throw CLI::ValidationError("--target-error", "of profile needs --profile");
+  }
   EncodeResult result;
   {
     ProgressBar bar(o.reporting);
@@ -127,16 +137,21 @@ Verb add_compress(CLI::App& program) {
   add_position(*verb, o->position);
   verb->add_flag("--provenance", o->encode.store_provenance, "Store name, format, licence and hash of the source");
   verb->add_flag("--store-cdf", o->encode.store_cdf, "Store the sampling tables of --eval: some kilobytes, and decoding need not build them");
+  auto* profile = verb->add_option("--profile", o->profile, "Spend the bytes where this scene looks: a profile, written by a renderer")->type_name("P");
+  verb->add_option("--profile-material", o->profile_material, "Which slot of the profile the file is; not needed where there is one")
+      ->type_name("SLOT")
+      ->needs(profile);
   add_threads(*verb, o->threads);
   add_reporting(*verb, o->reporting);
   verb->footer(
       preset_help() +
-      "\nMetrics of --target-error: log_mae, cbrt_rms, psnr_env, psnr_lights, albedo_error.\n"
+      "\nMetrics of --target-error: log_mae, cbrt_rms, psnr_env, psnr_lights, albedo_error and, with --profile, profile.\n"
       "A target that cannot be met ends with exit code 4, says the best reachable value and writes nothing.\n\n"
       "Examples:\n"
       "  brdf-compress compress gold.binary -o gold.brdfc\n"
       "  brdf-compress compress gold.binary -o gold.brdfc --preset thorough --target-size 1024 -v\n"
-      "  brdf-compress compress gold.binary -o gold.brdfc --target-error log_mae=0.002 --json");
+      "  brdf-compress compress gold.binary -o gold.brdfc --target-error log_mae=0.002 --json\n"
+      "  brdf-compress compress gold.binary -o gold.brdfc --profile scene.prof --profile-material lamp --target-error profile=0.05");
   return {verb, [o] { return run(*o); }};
 }
 

@@ -30,5 +30,6 @@ Verb add_bench(CLI::App& program, const std::string& command_line);
 Verb add_eval(CLI::App& program);
 Verb add_sample(CLI::App& program);
 Verb add_pdf(CLI::App& program);
+Verb add_profile(CLI::App& program);
 
 }  // namespace brdf::cli

@@ -8,10 +8,12 @@
 #include <brdf/material.h>
 #include <brdf/measurement.h>
 #include <brdf/metrics.h>
+#include <brdf/profile.h>
 #include <brdf/progress.h>
 
 #include <array>
 #include <cstddef>
+#include <memory>
 #include <optional>
 #include <string>
 #include <string_view>
@@ -50,6 +52,11 @@ struct EncodeOptions {
   bool store_provenance = false;                    ///< adds an optional chunk
   /// Adds an optional chunk of some kilobytes with the sampling tables of `level`: decoding reads instead of building them.
   bool store_cdf = false;
+  /// What a scene asked of this material: the fit, the residual, the bytes and the choice among files follow it, and the file says
+  /// so in an optional chunk of 15 bytes. What was never asked is left out or costs almost nothing, and stays finite, not
+  /// negative and bounded in energy.
+  std::shared_ptr<const MaterialProfile> profile;
+  double profile_share = 1;                         ///< of the scene's contribution, 0 to 1; only said in that chunk
   bool is_valid(std::string* why = nullptr) const;
 };
 
@@ -66,6 +73,8 @@ struct EncodeSummary {
   double energy_scale = 1;             ///< below 1: what EnergyMode::clamp multiplied f by
   std::string energy;                  ///< one sentence
   std::vector<RecordedError> errors;   ///< of the finished file
+  ProfileError profile;                ///< of the finished file at EncodeOptions::level; NaN without a profile
+  std::string left_out;                ///< what the profile did not ask for, one sentence; empty without
   double seconds_fit = 0, seconds_residual = 0, seconds_verify = 0;
   std::string brief() const;
 };

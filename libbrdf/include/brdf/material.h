@@ -12,6 +12,7 @@
 #include <cstddef>
 #include <cstdint>
 #include <memory>
+#include <optional>
 #include <span>
 #include <string>
 #include <vector>
@@ -54,6 +55,17 @@ struct RecordedError {
   double psnr_env = 0;  ///< dB
 };
 
+/// What a file says of the scene whose profile it was made for; rounded to what a few bytes hold.
+struct FittedFor {
+  std::uint8_t operations = 0;                        ///< bit k: ProfileOperation k was asked
+  EvalLevel level = EvalLevel::balanced;              ///< of the errors
+  float theta_i_least = 0, theta_i_most = 0;          ///< radians
+  float theta_o_least = 0, theta_o_most = 0;
+  double share = 0;                                   ///< of the scene's contribution, 0 to 1
+  double footprint_pixels = 0;                        ///< image area that sees the material first
+  double rms = 0, log_error = 0;                      ///< ProfileError of the whole file
+};
+
 /// What a file says about itself.
 struct MaterialInfo {
   int format_version = 1;
@@ -66,6 +78,7 @@ struct MaterialInfo {
   std::vector<RecordedError> errors;
   Provenance provenance;           ///< empty strings where the file carries none
   std::string fitter;              ///< version that wrote it
+  std::optional<FittedFor> fitted_for;  ///< nothing: made for every use alike
 };
 
 /// An isotropic or anisotropic reflector, ready to evaluate, sample and integrate.

@@ -9,6 +9,7 @@
 #include <array>
 #include <cstdint>
 #include <functional>
+#include <limits>
 #include <memory>
 #include <optional>
 #include <span>
@@ -18,7 +19,10 @@
 
 namespace brdf {
 
-enum class Metric : std::uint8_t { log_mae, cbrt_rms, psnr_env, psnr_lights, albedo_error };
+struct MaterialProfile;
+
+/// `profile` is ProfileError::rms, and exists only where there is a profile.
+enum class Metric : std::uint8_t { log_mae, cbrt_rms, psnr_env, psnr_lights, albedo_error, profile };
 const char* to_string(Metric m) noexcept;
 std::optional<Metric> metric_from_string(std::string_view name) noexcept;
 
@@ -35,6 +39,16 @@ struct BandedError {
   double p95 = 0, max = 0;  ///< of single pairs, mean over channels, below 85 degrees
 };
 
+/// Errors weighted by what a scene asked: with w_q the share of the contribution of query q and F the mean reference f of its
+/// cell of the profile,
+///   rms       = sqrt sum_q w_q mean_c ((f'_qc - f_qc) / F)^2           the relative error of what the material contributes,
+///   log_error = sum_q w_q mean_c |log(f'_qc + F/100) - log(f_qc + F/100)|.
+/// NaN where there is no profile.
+struct ProfileError {
+  double rms = std::numeric_limits<double>::quiet_NaN();
+  double log_error = std::numeric_limits<double>::quiet_NaN();
+};
+
 struct ErrorReport {
   BandedError log_mae;         ///< mean |log(1 + f cos_i) - log(1 + f' cos_i)|
   BandedError cbrt_rms;        ///< sqrt mean (cbrt(f cos_i) - cbrt(f' cos_i))^2; p95 and max of the absolute difference
@@ -43,6 +57,7 @@ struct ErrorReport {
   double psnr_lights = 0;      ///< dB, mean of four directional lights, each at most 60
   std::array<double, 4> psnr_light{};  ///< front, deg45, grazing, top; at most 60 each
   double albedo_error = 0;     ///< largest |albedo - albedo'| over channels at cos_o .95 .8 .6 .4 .2
+  ProfileError profile;        ///< filled in by ProfileComparison::score, not by Comparison::score
   std::uint64_t not_finite = 0, negative = 0;  ///< rows of the candidate, those of the albedo included
   double get(Metric m) const noexcept;
   /// True when `t` is met.
@@ -70,6 +85,20 @@ class Comparison {
  private:
   struct State;
   std::unique_ptr<State> state_;
+};
+
+/// Scores candidates at what a scene asked: up to eight pairs of directions in every cell of the profile that has a
+/// contribution. Immutable after construction, thread-safe, cheap to copy.
+class ProfileComparison {
+ public:
+  /// Throws Error(no_data) when no reflection above the horizon contributes.
+  ProfileComparison(const BatchEval& reference, int channels, const MaterialProfile& asked);
+  ProfileError score(const BatchEval& candidate) const;
+  std::size_t size() const noexcept;  ///< pairs of directions
+
+ private:
+  struct State;
+  std::shared_ptr<const State> state_;
 };
 
 }  // namespace brdf

@@ -49,6 +49,7 @@ struct Content {
   std::optional<Provenance> provenance;
   std::string fitter;
   std::optional<AnalyticModel> analytic;  ///< instead of lobes, residual and errors
+  std::optional<FittedFor> purpose;
   std::vector<std::byte> sampling;  ///< see density_codes.h; empty without
 };
 

@@ -6,6 +6,7 @@
 #include "container/error_codes.h"
 #include "container/header.h"
 #include "container/lobe_codes.h"
+#include "container/purpose_codes.h"
 #include "container/residual_chunk.h"
 #include "container/slice_frame_codes.h"
 #include "container/validate_content.h"
@@ -89,6 +90,7 @@ std::vector<std::byte> pack(const Content& content) {
     }
   }
   if (!content.sampling.empty()) add(static_cast<std::uint8_t>(ChunkType::sampling), content.sampling);
+  if (content.purpose) add(static_cast<std::uint8_t>(ChunkType::purpose), write_purpose(*content.purpose));
   if (content.provenance) add(static_cast<std::uint8_t>(ChunkType::provenance), provenance_payload(content));
 
   Component component = content.component;

@@ -9,6 +9,7 @@
 #include "container/lobe_codes.h"
 #include "container/lobe_quantiser.h"
 #include "container/packed_lobes.h"
+#include "container/purpose_codes.h"
 #include "container/residual_chunk.h"
 #include "container/slice_frame_codes.h"
 #include "container/varint.h"
@@ -53,6 +54,7 @@ std::string kind_name(std::uint8_t code) {
     case ChunkType::refinement: return "refinement";
     case ChunkType::provenance: return "provenance";
     case ChunkType::sampling: return "sampling";
+    case ChunkType::purpose: return "fitted-for";
   }
   return "type " + std::to_string(code);
 }
@@ -70,6 +72,7 @@ class ChunkReader {
       case ChunkType::residual: return residual(payload);
       case ChunkType::refinement: return refinement(payload);
       case ChunkType::provenance: return read_provenance(payload, out_.content);
+      case ChunkType::purpose: out_.content.purpose = read_purpose(payload); return;
       case ChunkType::sampling:
         if (out_.content.analytic) throw Error(ErrorCode::malformed, "chunk: sampling tables of an analytic model, which needs none");
         spend(payload.size(), "sampling tables");

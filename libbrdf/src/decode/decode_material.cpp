@@ -81,6 +81,7 @@ std::shared_ptr<const Material::Impl> decode_impl(std::span<const std::byte> byt
   info.errors = std::move(content.errors);
   if (content.provenance) info.provenance = std::move(*content.provenance);
   info.fitter = std::move(content.fitter);
+  info.fitted_for = content.purpose;
 
   if (content.analytic) return decode::analytic_impl(std::move(info), *content.analytic, options.level);
 

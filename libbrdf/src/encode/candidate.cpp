@@ -51,7 +51,7 @@ Candidate Candidate::half_difference(const SourceData& source, const residual::B
   const WeightedBins& cells = source.bins(codes);
   c.model_ = cell_model(cells.bins, cells.weights, basis, azimuth, c.order_, transform);
   if (!source.image().slope.empty())
-    add_environment(c.model_, source.image(), source.frame.lobes, source.queries(), basis, azimuth, c.order_, transform, MetricMix{}.environment);
+    add_environment(c.model_, source.image(), source.frame.lobes, source.queries(), basis, azimuth, c.order_, transform, source.environment_weight());
   c.start_ = solve_coefficients(c.model_);
   return c;
 }
@@ -75,7 +75,7 @@ std::optional<Candidate> Candidate::in_slices(const SourceData& source, const re
   }
   c.model_ = slice_model(slices->samples, slices->weights, c.order_, transform);
   if (!source.image().slope.empty())
-    add_environment(c.model_, source.image(), slices->samples, slices->frame, source.queries(), c.order_, transform, MetricMix{}.environment);
+    add_environment(c.model_, source.image(), slices->samples, slices->frame, source.queries(), c.order_, transform, source.environment_weight());
   return c;
 }
 

@@ -9,6 +9,9 @@
 #include "encode/energy.h"
 #include "encode/error_search.h"
 #include "encode/file_errors.h"
+#include "encode/lobe_energy.h"
+#include "encode/purpose.h"
+#include "encode/query_weight.h"
 #include "encode/size_search.h"
 #include "encode/stored_cdf.h"
 #include "encode/verification.h"
@@ -92,6 +95,7 @@ void count_bytes(std::span<const std::byte> bytes, EncodeSummary& summary) {
       case container::ChunkType::refinement: summary.residual_bytes += e.length; break;
       case container::ChunkType::sampling: summary.cdf_bytes += e.length; break;
       case container::ChunkType::analytic:  // compress writes none
+      case container::ChunkType::purpose:
       case container::ChunkType::provenance: break;
     }
   }
@@ -108,6 +112,8 @@ bool EncodeOptions::is_valid(std::string* why) const {
   if (threads < 1 || threads > 1024) return no("threads is " + std::to_string(threads) + ", allowed are 1 to 1024");
   if (target_size && target_error) return no("a target size and a target error exclude each other");
   if (target_error && !(target_error->value >= 0)) return no("the target error must be a number of at least 0");
+  if (target_error && target_error->metric == Metric::profile && !profile) return no("a target error under a profile needs a profile");
+  if (!(profile_share >= 0 && profile_share <= 1)) return no("the profile's share is " + std::to_string(profile_share) + ", allowed are 0 to 1");
   return true;
 }
 
@@ -137,7 +143,11 @@ EncodeResult compress_without_cdf(const Measurement& m, const EncodeOptions& opt
   auto start = Clock::now();
   FitOptions lobe_options = fit_options(effort, options.threads);
   if (size < few_bytes) lobe_options.max_lobes += more_lobes;
-  FitResult fit = fit_lobes(m, lobe_options, [&](std::string_view stage, double done) {
+  const MaterialProfile* const asked = options.profile.get();
+  std::optional<encode::QueryWeight> query_weight;
+  if (asked != nullptr) query_weight.emplace(m, *asked);
+  const encode::QueryWeight* const weight = query_weight ? &*query_weight : nullptr;
+  FitResult fit = encode::fit_asked(m, lobe_options, weight, [&](std::string_view stage, double done) {
     return !progress || progress(stage, 0.35 * done);
   });
   summary.seconds_fit = seconds_since(start);
@@ -150,20 +160,38 @@ EncodeResult compress_without_cdf(const Measurement& m, const EncodeOptions& opt
   const encode::Azimuths azimuths = encode::azimuths(m, options.reciprocity, options.mirror, asymmetry, effort);
   // one verification tells candidates apart, a finer one has the last word; where they are the same they are one
   const double final_quality = options.target_error ? 1.0 : effort.verify_quality, coarse_quality = std::min(choosing_quality, effort.verify_quality);
-  const encode::Verification verification(m, final_quality, options.threads);
+  const encode::Verification verification(m, final_quality, options.threads, asked);
   std::optional<encode::Verification> coarse;
-  if (coarse_quality < final_quality) coarse.emplace(m, coarse_quality, options.threads);
+  if (coarse_quality < final_quality) coarse.emplace(m, coarse_quality, options.threads, asked);
   const encode::Verification& choosing = coarse ? *coarse : verification;
+  const double energy_limit = asked != nullptr ? std::max(1.0, encode::largest_albedo(m, Material::from_lobes(fit.lobes).prepare(EvalLevel::fast, true))) : 0;
   const auto frame_for = [&](const FitResult& f) {
-    return encode::frame_of(m, container::quantise_lobes(f.lobes), epsilon, options.store_provenance);
+    LobeSet lobes = f.lobes;
+    if (asked != nullptr) encode::bound_lobes(lobes, energy_limit);  // of what nobody asked the fit knows little
+    container::Content frame = encode::frame_of(m, container::quantise_lobes(lobes), epsilon, options.store_provenance);
+    if (asked != nullptr) frame.purpose = encode::purpose_of(options);
+    return frame;
   };
   const auto search_for = [&](const container::Content& frame, const EffortStep& step, const encode::Verification& telling_apart, const auto& run) {
     const std::vector<residual::BasisCodes> bases = encode::basis_variants(frame.lobes, epsilon, step.variants);
-    const encode::SourceData source(m, frame, step);
+    const encode::SourceData source(m, frame, step, weight);
     return run(source, encode::Search{bases, azimuths, options.level, telling_apart, options.threads, step.effort == effort.effort});
   };
 
   Encoded best;
+  // what hardly matters to a scene may need fewer lobes than the data require
+  const auto try_fewer_lobes = [&] {
+    for (int lobes = 1; lobes < static_cast<int>(best.content.lobes.lobes.size()) || (lobes == 1 && !best.content.residual.empty()); ++lobes) {
+      FitOptions few = lobe_options;
+      few.max_lobes = lobes;
+      FitResult smaller = encode::fit_asked(m, few, weight);
+      Encoded e = encode::lobes_only(frame_for(smaller));
+      if (e.bytes.size() >= best.bytes.size() || !verification.score(e.bytes, options.level).meets(*options.target_error)) continue;
+      best = std::move(e);
+      summary.fit = std::move(smaller.summary);
+      return;
+    }
+  };
   double reciprocity_gain = 0, mirror_gain = 0;  // dB of keeping the asymmetry
   if (options.target_error) {
     // every lower step has its say, so that more effort is never a larger file
@@ -171,9 +199,9 @@ EncodeResult compress_without_cdf(const Measurement& m, const EncodeOptions& opt
     for (const EffortStep& step : encode::effort_steps()) {
       if (step.effort > effort.effort) break;
       const bool last = step.effort == effort.effort;
-      FitResult lower = last ? std::move(fit) : fit_lobes(m, fit_options(step, options.threads));
+      FitResult lower = last ? std::move(fit) : encode::fit_asked(m, fit_options(step, options.threads), weight);
       std::optional<encode::Verification> own;
-      if (!last) own.emplace(m, std::min(choosing_quality, step.verify_quality), options.threads);
+      if (!last) own.emplace(m, std::min(choosing_quality, step.verify_quality), options.threads, asked);
       try {
         Encoded e = search_for(frame_for(lower), step, own ? *own : choosing, [&](const encode::SourceData& source, const encode::Search& search) {
           return encode::encode_to_error(source, search, *options.target_error, verification, progress_of_search);
@@ -188,6 +216,7 @@ EncodeResult compress_without_cdf(const Measurement& m, const EncodeOptions& opt
       }
     }
     if (best.bytes.empty()) throw *unmet;
+    if (asked != nullptr) try_fewer_lobes();
   } else {
     double merit = 0;
     std::uint64_t smallest = UINT64_MAX;
@@ -211,7 +240,7 @@ EncodeResult compress_without_cdf(const Measurement& m, const EncodeOptions& opt
       const int fewer = static_cast<int>(frame.lobes.lobes.size()) - 1;
       if (size >= few_bytes || fewer < 1) break;
       lobe_options.max_lobes = fewer;
-      fit = fit_lobes(m, lobe_options);
+      fit = encode::fit_asked(m, lobe_options, weight);
     }
     if (best.bytes.empty())
       throw Error(ErrorCode::target_not_met, "compress: " + std::to_string(size) + " bytes cannot hold this material, the smallest file has " +
@@ -225,12 +254,13 @@ EncodeResult compress_without_cdf(const Measurement& m, const EncodeOptions& opt
   finish(best);
   summary.source_albedo = encode::largest_albedo(m, Material::decode(best.bytes));
   const encode::ClampedEnergy energy =
-      options.energy == EnergyMode::clamp ? encode::clamp_energy(best, std::max(1.0, summary.source_albedo) + encode::energy_tolerance,
+      options.energy == EnergyMode::clamp || asked != nullptr ? encode::clamp_energy(best, std::max(1.0, summary.source_albedo) + encode::energy_tolerance,
                                                                  options.target_size.value_or(UINT64_MAX), finish)
                                           : encode::ClampedEnergy{1, encode::largest_albedo(best.bytes)};
   summary.energy_scale = energy.scale;
   summary.largest_albedo = energy.albedo.value;
-  summary.energy = encode::energy_sentence(options.energy, energy.albedo, summary.source_albedo, energy.scale);
+  summary.energy = encode::energy_sentence(asked != nullptr ? EnergyMode::clamp : options.energy, energy.albedo, summary.source_albedo, energy.scale);
+  if (asked != nullptr) summary.profile = encode::record_purpose(best, verification, options);
   summary.seconds_verify = seconds_since(start);
 
   count_bytes(best.bytes, summary);
@@ -254,7 +284,13 @@ EncodeResult compress_without_cdf(const Measurement& m, const EncodeOptions& opt
 }  // namespace
 
 EncodeResult compress(const Measurement& m, const EncodeOptions& options, const Progress& progress) {
-  if (!options.store_cdf) return compress_without_cdf(m, options, progress);
+  // nobody draws directions from what is never sampled
+  const bool never_sampled = options.profile && !options.profile->asked(ProfileOperation::sample) && !options.profile->asked(ProfileOperation::pdf);
+  if (!options.store_cdf || never_sampled) {
+    EncodeResult result = compress_without_cdf(m, options, progress);
+    if (options.store_cdf) result.summary.left_out = "the sampling tables are left out: the profile has no sample and no pdf";
+    return result;
+  }
   constexpr int most_attempts = 4;
   EncodeOptions rest = options;
   for (int attempt = 0; attempt < most_attempts; ++attempt) {

@@ -12,9 +12,12 @@ const WeightedBins& SourceData::bins(const residual::BasisCodes& codes) const {
     WeightedBins w;
     w.bins = sample_bins(measurement, frame.lobes, basis, effort.bins_h, effort.bins_d, effort.bins_p, effort.substeps);
     w.weights = cell_weights(w.bins, basis.epsilon, {});
+    if (asked_ != nullptr) asked_->blend(w.bins, basis, w.weights);
     return w;
   });
 }
+
+double SourceData::environment_weight() const noexcept { return MetricMix{}.environment * (asked_ != nullptr ? 1 - asked_share : 1.0); }
 
 const metrics::QuerySet& SourceData::queries() const {
   return queries_.get(0, [&] { return effort.image_quality > 0 ? metrics::build_queries(effort.image_quality) : metrics::QuerySet{}; });

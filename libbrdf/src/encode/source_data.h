@@ -7,6 +7,7 @@
 #include "encode/effort.h"
 #include "encode/error_model.h"
 #include "encode/memo.h"
+#include "encode/query_weight.h"
 #include "encode/slice_samples.h"
 #include "metrics/queries.h"
 
@@ -32,15 +33,18 @@ struct SliceSource {
 
 class SourceData {
  public:
-  /// All are kept by reference.
-  SourceData(const Measurement& m, const container::Content& all_but_residual, const EffortStep& step)
-      : measurement(m), frame(all_but_residual), effort(step) {}
+  /// All are kept by reference; `asked` may be null.
+  SourceData(const Measurement& m, const container::Content& all_but_residual, const EffortStep& step, const QueryWeight* asked)
+      : measurement(m), frame(all_but_residual), effort(step), asked_(asked) {}
 
   const Measurement& measurement;
   const container::Content& frame;  ///< all that a file says but its residual
   const EffortStep& effort;
 
   const WeightedBins& bins(const residual::BasisCodes& codes) const;
+
+  /// Share of the picture in the error model.
+  double environment_weight() const noexcept;
 
   /// Rows and slopes of the picture in the error model; no slopes when the effort or the material has none.
   const metrics::QuerySet& queries() const;
@@ -50,6 +54,7 @@ class SourceData {
   const SliceSource* slices(int ndf_step, const residual::BasisCodes& codes) const;
 
  private:
+  const QueryWeight* asked_;
   mutable Memo<std::pair<int, int>, WeightedBins> bins_;
   mutable Memo<int, metrics::QuerySet> queries_;
   mutable Memo<int, ImageSlopes> image_;

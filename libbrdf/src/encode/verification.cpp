@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "encode/verification.h"
 
+#include "encode/query_weight.h"
+
 #include <algorithm>
 #include <cmath>
 #include <vector>
@@ -21,14 +23,19 @@ BatchEval reference_rows(const MeasurementInterpolator& reference, int channels)
 
 }  // namespace
 
-Verification::Verification(const Measurement& m, double quality, int threads)
-    : reference_(m), comparison_(reference_rows(reference_, m.channels.count), m.channels.count, quality, threads) {}
+Verification::Verification(const Measurement& m, double quality, int threads, const MaterialProfile* asked)
+    : reference_(m), comparison_(reference_rows(reference_, m.channels.count), m.channels.count, quality, threads) {
+  if (asked != nullptr) asked_.emplace(reference_rows(reference_, m.channels.count), m.channels.count, *asked);
+}
 
 ErrorReport Verification::score(const Material& material) const {
   const auto n = static_cast<std::size_t>(material.channels());
-  return comparison_.score([&material, n](std::span<const Vec3f> wi, std::span<const Vec3f> wo, std::span<float> out) {
+  const BatchEval eval = [&material, n](std::span<const Vec3f> wi, std::span<const Vec3f> wo, std::span<float> out) {
     for (std::size_t i = 0; i < wi.size(); ++i) material.eval(wi[i], wo[i], out.subspan(i * n, n));
-  });
+  };
+  ErrorReport report = comparison_.score(eval);
+  if (asked_) report.profile = asked_->score(eval);
+  return report;
 }
 
 ErrorReport Verification::score(std::span<const std::byte> bytes, EvalLevel level) const {
@@ -40,7 +47,9 @@ ErrorReport Verification::score(std::span<const std::byte> bytes, EvalLevel leve
 }
 
 double merit(const ErrorReport& r) noexcept {
-  return (r.psnr_env + r.psnr_lights - 20 * std::log10(std::max(r.log_mae.all, 1e-9))) / 3;
+  const double usual = (r.psnr_env + r.psnr_lights - 20 * std::log10(std::max(r.log_mae.all, 1e-9))) / 3;
+  if (std::isnan(r.profile.rms)) return usual;
+  return (1 - asked_share) * usual - asked_share * 20 * std::log10(std::max(r.profile.rms, 1e-9));
 }
 
 }  // namespace brdf::encode

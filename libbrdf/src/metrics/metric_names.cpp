@@ -11,11 +11,12 @@ struct Row {
   bool larger_is_better;
 };
 
-constexpr std::array<Row, 5> table{{{Metric::log_mae, "log_mae", false},
+constexpr std::array<Row, 6> table{{{Metric::log_mae, "log_mae", false},
                                     {Metric::cbrt_rms, "cbrt_rms", false},
                                     {Metric::psnr_env, "psnr_env", true},
                                     {Metric::psnr_lights, "psnr_lights", true},
-                                    {Metric::albedo_error, "albedo_error", false}}};
+                                    {Metric::albedo_error, "albedo_error", false},
+                                    {Metric::profile, "profile", false}}};
 
 }  // namespace
 
@@ -38,6 +39,7 @@ double ErrorReport::get(Metric m) const noexcept {
     case Metric::psnr_env: return psnr_env;
     case Metric::psnr_lights: return psnr_lights;
     case Metric::albedo_error: return albedo_error;
+    case Metric::profile: return profile.rms;
   }
   return 0;
 }
