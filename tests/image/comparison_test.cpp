@@ -73,6 +73,7 @@ TEST(NoiseFloor, EachFigureOfNoiseAloneIsItsFloor) {
   EXPECT_NEAR(result.flip.value, *result.flip.floor, 0.05 * *result.flip.floor);
   EXPECT_NEAR(result.hdr_flip.value, *result.hdr_flip.floor, 0.05 * *result.hdr_flip.floor);
   EXPECT_NEAR(result.relative_mse.value, *result.relative_mse.floor, 0.07 * *result.relative_mse.floor);
+  EXPECT_NEAR(result.mse.value, *result.mse.floor, 0.07 * *result.mse.floor);
   EXPECT_NEAR(result.mean_absolute.value, *result.mean_absolute.floor, 0.05 * *result.mean_absolute.floor);
   EXPECT_NEAR(result.max_difference.value, *result.max_difference.floor, 0.35 * *result.max_difference.floor);
 }

@@ -38,7 +38,8 @@ ExitCode run(int argc, char** argv) {
   program.set_version_flag("--version", std::string("brdf-render ") + version());
   program.require_subcommand(1);
   program.footer(footer);
-  const std::array verbs{add_render(program, command_line("brdf-render", argc, argv))};
+  const std::string line = command_line("brdf-render", argc, argv);
+  const std::array verbs{add_render(program, line), add_compare(program, line), add_difference(program)};
 
   // CLI11 takes arguments from the last to the first.
   std::vector<std::string> arguments(argv + 1, argv + argc);

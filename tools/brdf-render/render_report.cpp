@@ -3,7 +3,7 @@
 
 #include <brdf/version.h>
 
-#include "light/luminance.h"
+#include "image/luminance.h"
 
 #include <cmath>
 #include <cstdio>

@@ -19,4 +19,7 @@ struct Verb {
 /// The verb that a command line without one means. `command_line` goes into the picture's metadata.
 Verb add_render(CLI::App& program, const std::string& command_line);
 
+Verb add_compare(CLI::App& program, const std::string& command_line);
+Verb add_difference(CLI::App& program);
+
 }  // namespace brdf::cli

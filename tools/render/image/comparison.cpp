@@ -37,6 +37,7 @@ void add_floors(ComparisonResult& result, const Image& reference, const Image& c
   result.hdr_flip.floor = mean(hdr_flip(reference, noisy));
   result.relative_mse.floor = relative_mse(reference, noisy, stops);
   const RadianceDifference radiance = radiance_difference(reference, noisy);
+  result.mse.floor = radiance.mean_squared;
   result.max_difference.floor = radiance.max_absolute;
   result.mean_absolute.floor = radiance.mean_absolute;
   result.mean_signed_deviation = deviation_of_mean(noise);
@@ -61,6 +62,7 @@ ComparisonResult compare_images(const Image& reference, const Image& candidate, 
   result.hdr_flip.value = mean(hdr_flip(reference, candidate));
   result.relative_mse.value = relative_mse(reference, candidate, exposure_stops);
   const RadianceDifference radiance = radiance_difference(reference, candidate);
+  result.mse.value = radiance.mean_squared;
   result.max_difference.value = radiance.max_absolute;
   result.mean_absolute.value = radiance.mean_absolute;
   result.mean_signed = radiance.mean_signed;

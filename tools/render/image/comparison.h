@@ -19,10 +19,10 @@ struct Figure {
 
 /// How a candidate differs from a reference. Each figure's definition is at the function of its name.
 struct ComparisonResult {
-  Figure psnr, ssim, flip, hdr_flip;     ///< of what the display shows at the exposure; hdr_flip chooses its own
-  Figure relative_mse;                   ///< of the exposed radiance
-  Figure max_difference, mean_absolute;  ///< of the radiance as it is
-  double mean_signed = 0;                ///< of the radiance; positive: the candidate is brighter
+  Figure psnr, ssim, flip, hdr_flip;          ///< of what the display shows at the exposure; hdr_flip chooses its own
+  Figure relative_mse;                        ///< of the exposed radiance
+  Figure mse, max_difference, mean_absolute;  ///< of the radiance as it is
+  double mean_signed = 0;                     ///< of the radiance; positive: the candidate is brighter
   std::optional<double> mean_signed_deviation;
   // The squares without noise's share: of the radiance (unbiased), of the exposed radiance relative to the reference, and of
   // what the display shows, from which PSNR comes (both with the bias that squares_without_noise tells).

@@ -53,6 +53,7 @@ RadianceDifference radiance_difference(const Image& reference, const Image& cand
     result.max_absolute = std::max(result.max_absolute, std::abs(c - r));
     return std::abs(c - r);
   });
+  result.mean_squared = mean_over_values(reference, candidate, [](double r, double c) { return (c - r) * (c - r); });
   result.mean_signed = mean_over_values(reference, candidate, [](double r, double c) { return c - r; });
   return result;
 }

@@ -30,6 +30,7 @@ double relative_mse(const Image& reference, const Image& candidate, float exposu
 struct RadianceDifference {
   double max_absolute = 0;
   double mean_absolute = 0;
+  double mean_squared = 0;
   double mean_signed = 0;  ///< positive where the candidate is brighter
 };
 RadianceDifference radiance_difference(const Image& reference, const Image& candidate);

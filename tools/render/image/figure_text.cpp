@@ -13,6 +13,7 @@ std::vector<FigureRow> figure_rows(const ComparisonResult& result) {
       {"FLIP", "flip", result.flip, "%.5f"},
       {"HDR-FLIP", "hdr_flip", result.hdr_flip, "%.5f"},
       {"relative MSE", "relative_mse", result.relative_mse, "%.3g"},
+      {"MSE", "mse", result.mse, "%.3g"},
       {"max difference", "max_difference", result.max_difference, "%.3g"},
       {"mean |difference|", "mean_absolute", result.mean_absolute, "%.3g"},
   };

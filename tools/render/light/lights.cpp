@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "light/lights.h"
 
-#include "light/luminance.h"
+#include "image/luminance.h"
 
 #include <algorithm>
 #include <cmath>

@@ -3,7 +3,7 @@
 #pragma once
 
 #include "image/image.h"
-#include "light/luminance.h"
+#include "image/luminance.h"
 
 #include <cstdint>
 #include <vector>
