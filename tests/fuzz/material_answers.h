@@ -55,7 +55,9 @@ inline void require_numbers(const Material& m, const Vec3f& wi, const Vec3f& wo,
     require(s.pdf == 0);
     return;
   }
-  require(s.pdf > 0 && s.wi.z > 0);
+  require((s.flags & ~m.scatter_flags()) == 0);
+  // by signs: the product of two tiny cosines is 0
+  require(s.pdf > 0 && s.wi.z != 0 && ((s.flags & sample_transmission) != 0) == ((s.wi.z > 0) != (wo.z > 0)));
   const float length = std::sqrt(s.wi.x * s.wi.x + s.wi.y * s.wi.y + s.wi.z * s.wi.z);
   require(std::fabs(length - 1) < 1e-4F);
 }

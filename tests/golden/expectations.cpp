@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "golden/make_golden.h"
 #include "slices/slice_table.h"
+#include "support/analytic_reference.h"
 #include "support/direct_basis.h"
 #include "support/direction_batch.h"
 
@@ -38,6 +39,8 @@ using Evaluator = std::function<std::vector<double>(const Vec3f& wi, const Vec3f
 /// The basis summed in double, or the table in slices, which decoding holds in float.
 Evaluator direct(const std::vector<std::byte>& file) {
   const container::Content content = container::unpack(file, {}, true).content;
+  if (content.analytic)
+    return [model = *content.analytic](const Vec3f& wi, const Vec3f& wo) { return test::model_value(model, Vec3d(wi), Vec3d(wo)); };
   const auto coefficients =
       residual::dequantise(content.residual, content.component.transform, content.residual.layers.size());
   if (!coefficients.slices.empty())

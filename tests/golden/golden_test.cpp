@@ -48,7 +48,8 @@ TEST(Golden, EveryFileIsThere) {
   std::vector<std::string> names;
   for (const fs::path& file : golden_files()) names.push_back(file.stem().string());
   for (const char* name : {"rgb-lobes", "rgb-reciprocal-layers", "scalar-one-way", "spectral-restart", "rgb-slices", "rgb-mirror-asymmetric",
-                           "rgb-coded-lobes", "spectral-coded-lobes"})
+                           "rgb-coded-lobes", "spectral-coded-lobes", "model-lambert", "model-ggx", "model-anisotropic",
+                           "model-compensated", "model-mirror", "model-dielectric"})
     EXPECT_EQ(std::count(names.begin(), names.end(), name), 1) << name;
 }
 

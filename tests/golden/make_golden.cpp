@@ -13,6 +13,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <utility>
 
 namespace brdf::golden {
 namespace {
@@ -30,6 +31,28 @@ LobeSet lobes_of(int channels) {
                                     {{LobeKind::lambert, 1, 1, color(0.27)},
                                      {LobeKind::ggx, 0.18, 0.8, color(0.09)},
                                      {LobeKind::retro_ggx, 0.4, 0.1, color(0.01)}}});
+}
+
+/// One file of each analytic model.
+void add_models(std::vector<NamedContent>& all) {
+  const auto add = [&all](const char* name, const AnalyticModel& model, Channels channels) {
+    Content c;
+    c.component.channels = std::move(channels);
+    c.component.transform = ChannelTransform::identity;
+    c.component.reciprocal = !std::holds_alternative<Dielectric>(model);
+    c.lobes.channels = c.component.channels.count;
+    c.analytic = model;
+    all.push_back({name, std::move(c)});
+  };
+  const Channels rgb{ChannelModel::rgb, 3, {}}, scalar{ChannelModel::scalar, 1, {}};
+  add("model-lambert", Lambert{{0.5f, 0.25f, 0.125f}}, rgb);
+  add("model-ggx", GgxReflector{0.2f, 0.2f, {0.04f, 0.3f, 0.6f, 0.95f}}, {ChannelModel::spectral, 4, {400, 475, 550, 625}});
+  add("model-anisotropic", GgxReflector{0.1f, 0.4f, {0.9f, 0.7f, 0.4f}}, rgb);
+  add("model-compensated", GgxReflector{0.7f, 0.7f, {0.8f}, true}, scalar);
+  add("model-mirror", Mirror{{0.9f, 0.8f, 0.7f}}, rgb);
+  add("model-dielectric", Dielectric{1.5f, 3}, rgb);
+  all.back().content.provenance = Provenance{"glass", "formula", "ior 1.5", "CC0", 42, 0};
+  all.back().content.fitter = "libbrdf golden files";
 }
 
 Content frame(const Measurement& m, bool reciprocal) {
@@ -154,6 +177,7 @@ std::vector<NamedContent> make_contents() {
     c.residual = {};
     all.push_back({"spectral-coded-lobes", std::move(c)});
   }
+  add_models(all);
   return all;
 }
 

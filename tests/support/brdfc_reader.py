@@ -12,6 +12,7 @@ import sys
 
 from support.brdfc_coding import (Bits, Bytes, CoefficientDecoder, FormatError, RangeDecoder, coefficient_order,
                                   require, xxh32)
+from support.brdfc_analytic import AnalyticModel
 from support.brdfc_lobes import ggx, half_difference, read_coded_lobes, read_packed_lobes
 from support.brdfc_slices import ResampledGrid, SliceFrame, SliceTable
 
@@ -33,6 +34,7 @@ class Brdfc:
     """A file, read up to `refinements` (all when None). `prefix` allows it to be cut at a boundary."""
     def __init__(self, data, refinements=None, prefix=False):
         self.lobes, self.layers, self.errors, self.order = None, [], [], []
+        self.model = None
         self.table = self.grid = None
         self.read_header(data)
         require(len(data) <= self.total, "the file is longer than its header says")
@@ -65,11 +67,11 @@ class Brdfc:
         require(first & 0x83 == 0 and self.axes < 2 and (self.mirror or self.reciprocal) and second & 0xE0 == 0,
                 "the component is of a later version")
         require(not (self.axes and self.reciprocal), "slices cannot be reciprocal")
-        self.model, self.transform, self.channels = second & 3, second >> 2 & 7, r.varint()
+        self.channel_model, self.transform, self.channels = second & 3, second >> 2 & 7, r.varint()
         require(self.transform < 3, "unknown channel transform")
-        require(self.channels == {0: 3, 1: 3, 3: 1}.get(self.model, self.channels) > 0, "wrong number of channels")
+        require(self.channels == {0: 3, 1: 3, 3: 1}.get(self.channel_model, self.channels) > 0, "wrong number of channels")
         self.wavelengths = []
-        if self.model == 2:
+        if self.channel_model == 2:
             require(r.u8() == 1, "unknown form of wavelengths")
             self.wavelengths = list(struct.unpack(f"<{self.channels}f", r.take(4 * self.channels)))
         self.directory = [(r.u8(), r.varint()) for _ in range(r.varint())]
@@ -84,8 +86,13 @@ class Brdfc:
             self.read_errors(0, ["fast"], payload)
             read = read_packed_lobes if code == 1 else read_coded_lobes
             self.lobes = read(payload[2:], self.channels)
+        elif code == 5:
+            require(self.lobes is None, "a second lobes or analytic chunk")
+            self.lobes, self.model = [], AnalyticModel(payload, self.channels)
+            require(self.axes == 0 and self.transform == 0 and self.mirror and self.reciprocal == self.model.reciprocal,
+                    "the component does not fit its model")
         elif code == 2:
-            require(self.lobes is not None and not self.layers, "the residual is in the wrong place")
+            require(self.lobes is not None and not self.layers and self.model is None, "the residual is in the wrong place")
             self.read_errors(1, ["balanced", "exact"], payload)
             self.read_layer(self.read_basis(payload[4:]))
         elif code == 3:
@@ -94,6 +101,8 @@ class Brdfc:
             self.read_layer(payload[4:])
         elif code == 0x89:
             self.read_provenance(payload)
+        elif code == 0x8A:
+            require(self.model is None, "sampling tables of an analytic model")
         else:
             require(code & 0x80, f"unknown critical chunk {code}")
 
@@ -170,6 +179,8 @@ class Brdfc:
         n = self.channels
         if wi[2] <= 0 or wo[2] <= 0:
             return [0.0] * n
+        if self.model is not None:
+            return self.model.eval(wi, wo)
         if not self.has_residual():
             return self.lobe_sum(wi, wo)
         if self.axes == 1:

@@ -1,5 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 // The four analytic models: closed forms, refusals, what a handle says of itself.
+#include "support/analytic_models.h"
+#include "support/analytic_reference.h"
 #include "support/direction_batch.h"
 
 #include <brdf/fresnel.h>
@@ -11,6 +13,7 @@
 #include <cmath>
 #include <numbers>
 #include <utility>
+#include <vector>
 
 namespace {
 
@@ -86,30 +89,15 @@ TEST(AnalyticModels, TheDielectricObeysSnellAndFresnel) {
   EXPECT_FALSE(m.info().reciprocal);
 }
 
-/// D G2 / (4 c_i c_o) as <brdf/analytic.h> writes it.
-double facets(const GgxReflector& m, const Vec3d& wi, const Vec3d& wo) {
-  const double ax = static_cast<double>(m.alpha_x), ay = static_cast<double>(m.alpha_y);
-  const Vec3d s = wi + wo, h = s / std::hypot(s.x, s.y, s.z);
-  const double q = h.x * h.x / (ax * ax) + h.y * h.y / (ay * ay) + h.z * h.z;
-  const auto lambda = [&](const Vec3d& w) {
-    return 0.5 * (std::sqrt(1 + (ax * ax * w.x * w.x + ay * ay * w.y * w.y) / (w.z * w.z)) - 1);
-  };
-  return 1 / (std::numbers::pi * ax * ay * q * q) / (1 + lambda(wi) + lambda(wo)) / (4 * wi.z * wo.z);
-}
-
 TEST(AnalyticModels, GgxIsItsFormula) {
   const test::DirectionBatch wi = test::random_directions(300, 5), wo = test::random_directions(300, 6);
   for (const auto& [ax, ay] : {std::pair{0.3f, 0.3f}, std::pair{0.5f, 0.1f}, std::pair{0.05f, 1.0f}}) {
     const GgxReflector model{ax, ay, {0.04f, 0.5f, 1.0f}};
     const Material m = Material::from_analytic(model);
     for (std::size_t k = 0; k < wi.size(); ++k) {
-      const Vec3d i(wi[k]), o(wo[k]);
-      const double cos_d = std::sqrt(0.5 + 0.5 * (i.x * o.x + i.y * o.y + i.z * o.z)), shape = facets(model, i, o);
+      const std::vector<double> expected = test::model_value(model, Vec3d(wi[k]), Vec3d(wo[k]));
       const auto f = eval(m, wi[k], wo[k]);
-      for (std::size_t c = 0; c < 3; ++c) {
-        const double f0 = static_cast<double>(model.f0[c]), expected = shape * (f0 + (1 - f0) * std::pow(1 - cos_d, 5));
-        EXPECT_NEAR(f[c], expected, 2e-5 * expected) << ax << ' ' << ay << ' ' << k;
-      }
+      for (std::size_t c = 0; c < 3; ++c) EXPECT_NEAR(f[c], expected[c], 2e-5 * expected[c]) << ax << ' ' << ay << ' ' << k;
       EXPECT_EQ(f, eval(m, wo[k], wi[k]));
     }
   }
@@ -127,6 +115,44 @@ TEST(AnalyticModels, TwoRoughnessesThatMeetAreOne) {
   }
   EXPECT_EQ(one.lobes().lobes.size(), 1U);
   EXPECT_TRUE(two.lobes().lobes.empty());
+}
+
+TEST(AnalyticModels, EveryLevelIsTheSame) {
+  for (const test::NamedModel& named : test::all_models()) {
+    SCOPED_TRACE(named.name);
+    const Material m = Material::from_analytic(named.model);
+    EXPECT_TRUE(m.sampling());
+    EXPECT_EQ(m.sampling_bytes(), 0U);
+    EXPECT_EQ(m.info().refinements_total, 0);
+    EXPECT_TRUE(m.info().errors.empty());
+    EXPECT_LT(m.resident_bytes(), 4096U);
+    const auto channels = static_cast<std::size_t>(m.channels());
+    const Vec3f wi = test::direction_at(0.7, 1), wo = test::direction_at(0.5, 3.5), u{0.7f, 0.2f, 0.4f};
+    std::vector<float> f(channels), g(channels), weight(channels), again(channels);
+    m.eval(wi, wo, f);
+    const Sample s = m.sample(wo, u, weight);
+    for (const EvalLevel level : {EvalLevel::fast, EvalLevel::balanced, EvalLevel::exact})
+      for (const bool sampling : {false, true}) {
+        const Material prepared = m.prepare(level, sampling);
+        EXPECT_EQ(prepared.level(), level);
+        EXPECT_TRUE(prepared.sampling());
+        ASSERT_NE(prepared.analytic(), nullptr);
+        EXPECT_STREQ(name_of(*prepared.analytic()), name_of(named.model));
+        EXPECT_EQ(prepared.scatter_flags(), m.scatter_flags());
+        prepared.eval(wi, wo, g);
+        EXPECT_EQ(f, g);
+        const Sample t = prepared.sample(wo, u, again);
+        EXPECT_EQ(s.wi, t.wi);
+        EXPECT_EQ(s.pdf, t.pdf);
+        EXPECT_EQ(weight, again);
+      }
+  }
+}
+
+TEST(AnalyticModels, OthersHaveNoFormula) {
+  const Material m = Material::from_lobes({1, {{LobeKind::lambert, 1, 1, {0.5}}}});
+  EXPECT_EQ(m.analytic(), nullptr);
+  EXPECT_EQ(m.scatter_flags(), static_cast<std::uint32_t>(sample_reflection));
 }
 
 }  // namespace

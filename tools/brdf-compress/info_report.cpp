@@ -86,6 +86,23 @@ Json lobe_list(const LobeSet& set) {
   return list;
 }
 
+/// The parameters of an analytic material, or null.
+Json model_row(const AnalyticModel* model) {
+  if (model == nullptr) return {};
+  Json row;
+  row["kind"] = name_of(*model);
+  if (const auto* m = std::get_if<Lambert>(model)) row["albedo"] = m->albedo;
+  if (const auto* m = std::get_if<Mirror>(model)) row["reflectance"] = m->reflectance;
+  if (const auto* m = std::get_if<Dielectric>(model)) row["ior"] = m->ior;
+  if (const auto* m = std::get_if<GgxReflector>(model)) {
+    row["alpha_x"] = m->alpha_x;
+    row["alpha_y"] = m->alpha_y;
+    row["f0"] = m->f0;
+    row["multiple_scattering"] = m->multiple_scattering;
+  }
+  return row;
+}
+
 }  // namespace
 
 const char* lobe_name(LobeKind kind) noexcept {
@@ -136,6 +153,7 @@ Json compressed_info(const MaterialSource& source) {
   row["refinements_read"] = info.refinements_read;
   row["refinements_total"] = info.refinements_total;
   row["refinements"] = refinements(source);
+  row["model"] = model_row(material.analytic());
   row["lobes"] = lobe_list(material.lobes());
   const FileCheck check = check_file(source.bytes(), {}, true);
   for (const EvalLevel level : {EvalLevel::fast, EvalLevel::balanced, EvalLevel::exact}) {

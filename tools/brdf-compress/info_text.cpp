@@ -52,6 +52,18 @@ std::string colour(const Json& values) {
   return values.size() > most ? text + " ..." : text;
 }
 
+/// "ggx, alpha_x 0.1, ..."; empty without a model.
+std::string model_text(const Json& model) {
+  if (model.is_null()) return "";
+  std::string text = word(model, "kind");
+  for (const auto& [name, value] : model.items()) {
+    if (value.is_number()) text += ", " + name + " " + significant(value, 4);
+    if (value.is_array()) text += ", " + name + " " + colour(value);
+    if (value.is_boolean() && value.get<bool>()) text += ", " + name;
+  }
+  return text;
+}
+
 std::string refinement_table(const Json& list) {
   TextTable table;
   table.header = {"refinement", "ends at byte", "level", "log_mae", "psnr_env"};
@@ -118,6 +130,7 @@ std::string compressed_text(const Json& row) {
                                 .add("licence", word(row, "licence"))
                                 .add("source hash", word(row, "content_hash"))
                                 .add("written by", word(row, "fitter"))
+                                .add("model", model_text(row["model"]))
                                 .add("bytes", number("bytes_read") + " of " + number("total_bytes"))
                                 .add("refinements", number("refinements_read") + " of " + number("refinements_total"))
                                 .add("channels", channels(row))
@@ -127,6 +140,7 @@ std::string compressed_text(const Json& row) {
                                 .add("resident bytes", by_level(row["resident_bytes"]))
                                 .add("bytes while decoding", by_level(row["temporary_bytes"]))
                                 .text();
+  if (!row["model"].is_null()) return facts;
   return facts + '\n' + lobe_table(row["lobes"]) + '\n' + refinement_table(row["refinements"]);
 }
 

@@ -37,6 +37,7 @@ ExitCode run(int argc, char** argv) {
   program.require_subcommand(1);
   program.footer(exit_codes_help);
   const std::array verbs{add_compress(program),
+                         add_model(program),
                          add_decompress(program),
                          add_convert(program),
                          add_info(program),

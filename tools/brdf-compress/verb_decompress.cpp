@@ -23,6 +23,11 @@ ExitCode run(const Options& o) {
   if (!source.is_compressed()) {
     throw Failure(ExitCode::bad_input, o.input + ": is a measured file and no .brdfc; 'convert' takes those");
   }
+  if (const AnalyticModel* model = source.material().analytic()) {
+    const auto* ggx = std::get_if<GgxReflector>(model);
+    if ((source.material().scatter_flags() & sample_delta) != 0 || (ggx != nullptr && ggx->alpha_x != ggx->alpha_y))
+      throw Failure(ExitCode::bad_input, o.input + ": a table of half/difference angles holds neither delta lobes nor anisotropy");
+  }
   const std::vector<std::byte> bytes = export_merl(source, o.table);
   write_output(o.output, bytes, o.force);
   o.reporting.say(o.output + ": MERL layout, " + std::to_string(bytes.size()) + " bytes, evaluated at " +

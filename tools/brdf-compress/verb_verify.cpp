@@ -1,4 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
+#include "delta_checks.h"
 #include "json_report.h"
 #include "material_checks.h"
 #include "material_source.h"
@@ -90,7 +91,8 @@ Checks examine(const Options& o) {
   double done = 0.1;
   for (const EvalLevel level : {EvalLevel::fast, EvalLevel::balanced, EvalLevel::exact}) {
     bar.show("sampling", done);
-    append(checks, sampling_checks(file.material().prepare(level)));
+    const Material material = file.material().prepare(level);
+    append(checks, (material.scatter_flags() & sample_delta) != 0 ? delta_checks(material) : sampling_checks(material));
     done += 0.1;
   }
   if (reference) append(checks, recorded_checks(file, *reference, thread_count(o.threads), bar));

@@ -17,6 +17,8 @@ struct Verb {
 };
 
 Verb add_compress(CLI::App& program);
+/// Writes an analytic material.
+Verb add_model(CLI::App& program);
 Verb add_decompress(CLI::App& program);
 Verb add_convert(CLI::App& program);
 Verb add_info(CLI::App& program);

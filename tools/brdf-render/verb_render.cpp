@@ -14,7 +14,9 @@
 #include "stopwatch.h"
 #include "verbs.h"
 
+#include <charconv>
 #include <memory>
+#include <sstream>
 
 namespace brdf::cli {
 namespace {
@@ -29,6 +31,19 @@ struct Options {
   bool force = false;
   Reporting reporting;
 };
+
+/// CLI11's Range takes what is no number for one in it.
+CLI::Validator within(double least, double most) {
+  const auto check = [least, most](const std::string& text) -> std::string {
+    double value = 0;
+    const auto [rest, error] = std::from_chars(text.data(), text.data() + text.size(), value);
+    if (error == std::errc{} && rest == text.data() + text.size() && value >= least && value <= most) return {};
+    std::ostringstream sentence;
+    sentence << "is '" << text << "', allowed is a number from " << least << " to " << most;
+    return sentence.str();
+  };
+  return {check, ""};
+}
 
 ExitCode run(const Options& o, const std::string& command_line) {
   for (const std::string& file : {o.output, o.png})
@@ -67,12 +82,12 @@ Verb add_render(CLI::App& program, const std::string& command_line) {
   verb->add_option("--png", o->png, "Also write it for a display: sRGB, 8 bits")->type_name("OUT.png");
   verb->add_option("--exposure", o->exposure, "Of the PNG, in stops: radiance is multiplied by 2^E")
       ->type_name("E")
-      ->check(CLI::Range(-64.0, 64.0))
+      ->check(within(-64, 64))
       ->capture_default_str();
   verb->add_option("--spp", o->render.spp, "Samples per pixel")->type_name("N")->check(CLI::Range(1, 1 << 20))->capture_default_str();
   verb->add_option("--time", o->render.seconds, "Begin no further pass after this many seconds; --spp is then the most")
       ->type_name("S")
-      ->check(CLI::Range(0.0, 1e9));
+      ->check(within(0, 1e9));
   verb->add_option("--seed", o->render.seed, "Seed of the random numbers; the same seed gives the same picture")
       ->check(natural_number())
       ->capture_default_str();

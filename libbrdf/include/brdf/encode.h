@@ -3,6 +3,7 @@
 /// Compression: measurement in, `.brdfc` bytes and a verified error out.
 #pragma once
 
+#include <brdf/analytic.h>
 #include <brdf/fit.h>
 #include <brdf/material.h>
 #include <brdf/measurement.h>
@@ -77,5 +78,11 @@ struct EncodeResult {
 /// Compresses. Values of valid cells must be finite. Throws Error: invalid_argument, no_data, cancelled, target_not_met
 /// (its sentence says the best reachable value). Deterministic for any number of threads and any instruction set.
 EncodeResult compress(const Measurement& m, const EncodeOptions& options = {}, const Progress& progress = {});
+
+/// The bytes of a `.brdfc` file that holds the parameters of a model as they are: 22 bytes and the parameters, and the
+/// provenance if given. `channels` says what the channels mean; without, three are RGB and one is a scalar. Deterministic.
+/// Throws Error(invalid_argument).
+std::vector<std::byte> pack_analytic(const AnalyticModel& model, const Provenance* provenance = nullptr,
+                                     const Channels* channels = nullptr);
 
 }  // namespace brdf

@@ -6,6 +6,7 @@
 #include "residual/channel_transform.h"
 #include "residual/residual_code.h"
 
+#include <brdf/analytic.h>
 #include <brdf/limits.h>
 #include <brdf/lobes.h>
 #include <brdf/material.h>
@@ -47,6 +48,7 @@ struct Content {
   std::vector<RecordedError> errors;  ///< refinement 0 at `fast`; each further one at `balanced` and `exact`
   std::optional<Provenance> provenance;
   std::string fitter;
+  std::optional<AnalyticModel> analytic;  ///< instead of lobes, residual and errors
   std::vector<std::byte> sampling;  ///< see density_codes.h; empty without
 };
 

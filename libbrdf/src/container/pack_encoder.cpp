@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "base/byte_reader.h"
+#include "container/analytic_codes.h"
 #include "container/chunk_types.h"
 #include "container/content.h"
 #include "container/error_codes.h"
@@ -57,10 +58,14 @@ std::vector<std::byte> pack(const Content& content) {
     payloads.push_back(std::move(payload));
   };
 
-  std::vector<std::byte> lobes;
-  put_errors(lobes, content, 0, {EvalLevel::fast});
-  append(lobes, write_lobes(content.lobes));
-  add(static_cast<std::uint8_t>(ChunkType::lobes), std::move(lobes));
+  if (content.analytic) {
+    add(static_cast<std::uint8_t>(ChunkType::analytic), write_analytic(*content.analytic));
+  } else {
+    std::vector<std::byte> lobes;
+    put_errors(lobes, content, 0, {EvalLevel::fast});
+    append(lobes, write_lobes(content.lobes));
+    add(static_cast<std::uint8_t>(ChunkType::lobes), std::move(lobes));
+  }
 
   const residual::ResidualCode& code = content.residual;
   if (!code.empty()) {

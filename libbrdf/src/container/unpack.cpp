@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "base/byte_reader.h"
+#include "container/analytic_codes.h"
 #include "container/chunk_types.h"
 #include "container/content.h"
 #include "container/density_codes.h"
@@ -47,6 +48,7 @@ std::string kind_name(std::uint8_t code) {
   switch (static_cast<ChunkType>(code)) {
     case ChunkType::packed_lobes:
     case ChunkType::lobes: return "lobes";
+    case ChunkType::analytic: return "analytic";
     case ChunkType::residual: return "residual";
     case ChunkType::refinement: return "refinement";
     case ChunkType::provenance: return "provenance";
@@ -64,10 +66,12 @@ class ChunkReader {
     switch (static_cast<ChunkType>(code)) {
       case ChunkType::packed_lobes: return lobes(payload, read_packed_lobes);
       case ChunkType::lobes: return lobes(payload, read_lobes);
+      case ChunkType::analytic: return analytic(payload);
       case ChunkType::residual: return residual(payload);
       case ChunkType::refinement: return refinement(payload);
       case ChunkType::provenance: return read_provenance(payload, out_.content);
       case ChunkType::sampling:
+        if (out_.content.analytic) throw Error(ErrorCode::malformed, "chunk: sampling tables of an analytic model, which needs none");
         spend(payload.size(), "sampling tables");
         out_.content.sampling.assign(payload.begin(), payload.end());  // decoded where it is needed
         return;
@@ -76,16 +80,32 @@ class ChunkReader {
       throw Error(ErrorCode::unsupported, "chunk: critical " + kind_name(code) + " is not known to this version");
   }
 
+  bool has_lobes() const noexcept { return have_lobes_; }
+
  private:
   void lobes(std::span<const std::byte> payload, LobeSet (*reader)(std::span<const std::byte>, int, std::uint32_t)) {
-    if (have_lobes_) throw Error(ErrorCode::malformed, "chunk: a second lobes chunk");
-    have_lobes_ = true;
+    begin_lobes();
     spend(most_lobes * channels() * 3 * sizeof(double), "lobes");  // as read, and twice as evaluated
     out_.content.errors.push_back(read_error(payload, 0, EvalLevel::fast));
     out_.content.lobes = reader(payload, out_.content.component.channels.count, limits_.max_lobes);
   }
 
+  /// A model in the place of the lobes.
+  void analytic(std::span<const std::byte> payload) {
+    begin_lobes();
+    if (!out_.content.sampling.empty()) throw Error(ErrorCode::malformed, "chunk: sampling tables before an analytic model, which needs none");
+    spend(channels() * 4 * sizeof(float), "analytic model");  // as read, and as it is sampled
+    out_.content.lobes.channels = out_.content.component.channels.count;
+    out_.content.analytic = read_analytic(payload, out_.content.component);
+  }
+
+  void begin_lobes() {
+    if (have_lobes_) throw Error(ErrorCode::malformed, "chunk: a second lobes or analytic chunk");
+    have_lobes_ = true;
+  }
+
   void residual(std::span<const std::byte> payload) {
+    if (out_.content.analytic) throw Error(ErrorCode::malformed, "chunk: a residual of an analytic model, which has none");
     if (!have_lobes_ || codec_) throw Error(ErrorCode::malformed, "chunk: the residual is not directly after the lobes");
     residual::ResidualCode& code = out_.content.residual;
     std::span<const std::byte> rest = payload;
@@ -152,7 +172,7 @@ class ChunkReader {
 
 bool is_lobes(std::uint8_t code) noexcept {
   const auto type = static_cast<ChunkType>(code);
-  return type == ChunkType::lobes || type == ChunkType::packed_lobes;
+  return type == ChunkType::lobes || type == ChunkType::packed_lobes || type == ChunkType::analytic;
 }
 
 bool is_layer(std::uint8_t code) noexcept {
@@ -200,8 +220,7 @@ Unpacked unpack(std::span<const std::byte> bytes, const DecodeLimits& limits, bo
     reader.read(e.code, payload);
     at += e.length + checksum_bytes;
   }
-  if (out.content.lobes.channels != out.content.component.channels.count || out.content.errors.empty())
-    throw Error(ErrorCode::malformed, ".brdfc file: it has no lobes chunk");
+  if (!reader.has_lobes()) throw Error(ErrorCode::malformed, ".brdfc file: it has no lobes chunk");
   if (!out.content.sampling.empty()) check_density(out.content.sampling, lobes::has_retro_lobes(out.content.lobes));
   return out;
 }

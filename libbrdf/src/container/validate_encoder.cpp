@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "container/validate_content.h"
 
+#include "analytic/model_check.h"
 #include "container/slice_frame_codes.h"
 #include "residual/reconstruct.h"
 
@@ -51,6 +52,15 @@ void validate_residual(const residual::ResidualCode& code, const Component& comp
   }
 }
 
+void validate_analytic(const Content& content) {
+  const Component& c = content.component;
+  if (const auto problem = analytic::problem_of(*content.analytic)) refuse(*problem);
+  require(analytic::channels_of(*content.analytic) == c.channels.count, "the analytic model and the component differ in channels");
+  require(content.lobes.lobes.empty() && content.residual.empty() && content.sampling.empty(), "an analytic model has no lobes or tables");
+  require(c.transform == residual::ChannelTransform::identity && c.mirror_symmetric && c.reciprocal == analytic::is_reciprocal(*content.analytic),
+          "the component does not say what its analytic model is");
+}
+
 }  // namespace
 
 void validate(const Content& content) {
@@ -61,9 +71,11 @@ void validate(const Content& content) {
   if (ch.model == ChannelModel::spectral) require(ch.wavelengths_nm.size() == static_cast<std::size_t>(ch.count), "every spectral channel needs a wavelength");
   require(static_cast<std::uint32_t>(ch.count) <= DecodeLimits{}.max_channels, "more channels than decoders accept");
   for (std::size_t i = 0; i < ch.wavelengths_nm.size(); ++i)
-    require(ch.wavelengths_nm[i] > (i == 0 ? 0.0F : ch.wavelengths_nm[i - 1]), "wavelengths are not ascending");
+    require(ch.wavelengths_nm[i] > (i == 0 ? 0.0F : ch.wavelengths_nm[i - 1]) && ch.wavelengths_nm[i] < 1e7F,
+            "wavelengths are not ascending, or not below 1e7 nm");
   require(content.lobes.lobes.size() <= 15, "a file holds at most 15 lobes");
   validate_lobes(content.lobes, ch.count);
+  if (content.analytic) validate_analytic(content);
   if (!content.residual.empty()) validate_residual(content.residual, content.component);
 }
 

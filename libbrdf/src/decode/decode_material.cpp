@@ -63,7 +63,7 @@ std::shared_ptr<const Material::Sampling> sampling_of(const Material::Impl& impl
 }
 
 Material with_sampling(std::shared_ptr<const Material::Impl> impl, bool sampling) {
-  auto tables = sampling ? sampling_of(*impl) : nullptr;
+  auto tables = sampling && !impl->model ? sampling_of(*impl) : nullptr;
   return Material(std::move(impl), std::move(tables));
 }
 
@@ -81,6 +81,8 @@ std::shared_ptr<const Material::Impl> decode_impl(std::span<const std::byte> byt
   info.errors = std::move(content.errors);
   if (content.provenance) info.provenance = std::move(*content.provenance);
   info.fitter = std::move(content.fitter);
+
+  if (content.analytic) return decode::analytic_impl(std::move(info), *content.analytic, options.level);
 
   auto source = std::make_shared<Source>();
   source->coefficients = residual::dequantise(content.residual, content.component.transform, content.residual.layers.size());
@@ -113,7 +115,7 @@ Material Material::prepare(EvalLevel level) const { return prepare(level, sampli
 
 Material Material::prepare(EvalLevel level, bool sampling) const {
   if (level == this->level()) {
-    if (sampling == this->sampling() || impl_->model) return *this;
+    if (sampling == this->sampling()) return *this;
     return with_sampling(impl_, sampling);
   }
   if (impl_->model) return Material(decode::analytic_impl(impl_->info, *impl_->model, level, impl_->scatterer));

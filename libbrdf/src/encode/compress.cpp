@@ -91,6 +91,7 @@ void count_bytes(std::span<const std::byte> bytes, EncodeSummary& summary) {
       case container::ChunkType::residual:
       case container::ChunkType::refinement: summary.residual_bytes += e.length; break;
       case container::ChunkType::sampling: summary.cdf_bytes += e.length; break;
+      case container::ChunkType::analytic:  // compress writes none
       case container::ChunkType::provenance: break;
     }
   }

@@ -74,14 +74,34 @@ class Pass {
   std::atomic<bool> stopped_{false};
 };
 
+/// Calls back now and then, however short or long passes are.
+class Reporter {
+ public:
+  explicit Reporter(const Progress& progress) : progress_(progress) {}
+  static constexpr std::chrono::milliseconds interval{100};
+
+  /// Whether to go on.
+  bool report(double done) {
+    if (!progress_ || cancelled_ || Clock::now() - last_ < interval) return !cancelled_;
+    cancelled_ = !progress_("rendering", done);
+    last_ = Clock::now();
+    return !cancelled_;
+  }
+
+ private:
+  const Progress& progress_;
+  Clock::time_point last_ = Clock::now();
+  bool cancelled_ = false;
+};
+
 /// Runs a pass on `threads` threads besides this one, which reports. False when it was cancelled.
-bool run(Pass& pass, int threads, double begin, double end, const Progress& progress, PathCounts& counts,
+bool run(Pass& pass, int threads, double begin, double end, Reporter& reporter, PathCounts& counts,
          std::span<PathObserver* const> observers) {
   std::mutex mutex;
   std::condition_variable finished;
   int running = threads;
   std::vector<PathCounts> of_thread(static_cast<std::size_t>(threads));
-  bool cancelled = false;
+  bool goes_on = true;
   {
     std::vector<std::jthread> workers;
     for (int t = 0; t < threads; ++t) {
@@ -93,19 +113,15 @@ bool run(Pass& pass, int threads, double begin, double end, const Progress& prog
       });
     }
     std::unique_lock lock(mutex);
-    while (!finished.wait_for(lock, std::chrono::milliseconds(100), [&] { return running == 0; })) {
-      if (!progress || cancelled) continue;
+    while (!finished.wait_for(lock, Reporter::interval, [&] { return running == 0; })) {
       lock.unlock();
-      const double share = static_cast<double>(pass.done()) / pass.tiles();
-      if (!progress("rendering", begin + (end - begin) * share)) {
-        cancelled = true;
-        pass.stop();
-      }
+      goes_on = reporter.report(begin + (end - begin) * pass.done() / pass.tiles());
+      if (!goes_on) pass.stop();
       lock.lock();
     }
   }
   for (const PathCounts& c : of_thread) counts += c;
-  return !cancelled;
+  return goes_on && reporter.report(end);
 }
 
 }  // namespace
@@ -127,12 +143,19 @@ RenderResult render_scene(const Scene& scene, const RenderOptions& options, cons
   result.film = Film(scene.description.film.width, scene.description.film.height);
   result.threads = render_threads(options.threads);
   const Clock::time_point start = Clock::now();
-  // The first passes are short, so that an early interruption finds a whole picture; later ones spare the waiting for the last tile.
-  for (int first = 0, count = 1; first < options.spp; first += count, count = std::min(count * 2, 16)) {
+  Reporter reporter(progress);
+  // The first passes are short, so that an early interruption finds a whole picture; later ones spare the waiting for the last tile,
+  // and small pictures the starting of threads.
+  const std::int64_t pixels = static_cast<std::int64_t>(result.film.width()) * result.film.height();
+  const int longest = static_cast<int>(std::clamp<std::int64_t>((1 << 20) / pixels, 16, 1024));
+  for (int first = 0, count = 1; first < options.spp; first += count, count = std::min(count * 2, longest)) {
     count = std::min(count, options.spp - first);
     Pass pass(scene, tracer, options.seed, first, count, result.film);
     const double spp = options.spp;
-    if (!run(pass, result.threads, first / spp, (first + count) / spp, progress, result.counts, observers)) break;
+    if (!run(pass, result.threads, first / spp, (first + count) / spp, reporter, result.counts, observers)) {
+      result.complete = first + count == options.spp && result.film.fewest_samples() == static_cast<std::uint32_t>(options.spp);
+      break;
+    }
     result.complete = first + count == options.spp;
     if (options.seconds > 0 && seconds_since(start) >= options.seconds) {
       result.complete = true;
