@@ -5,7 +5,7 @@ import os
 
 from support.cli_harness import CliTest, compressed, folder, main, measured, run
 
-VERBS = ["compress", "model", "decompress", "convert", "info", "verify", "compare", "where", "bench", "eval", "sample", "pdf", "profile"]
+VERBS = ["compress", "model", "decompress", "convert", "info", "verify", "compare", "where", "bench", "eval", "sample", "pdf", "profile", "plan"]
 
 
 class Usage(CliTest):

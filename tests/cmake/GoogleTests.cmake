@@ -52,9 +52,9 @@ foreach(folder IN LISTS folders)
     set(program brdf_${folder}_tests)
     add_executable(${program} ${sources})
     brdf_compile_options(${program})
-    # without precompiled headers this would only make every program wait for the unit tests, which whoever works on the
-    # renderer has no need of
-    if(TARGET brdf_unit_tests AND NOT program STREQUAL brdf_unit_tests AND NOT folder STREQUAL render
+    # without precompiled headers this would only make every program wait for the unit tests, which whoever works on
+    # pictures or the renderer has no need of
+    if(TARGET brdf_unit_tests AND NOT program STREQUAL brdf_unit_tests AND NOT folder MATCHES "^(image|render)$"
        AND NOT CMAKE_DISABLE_PRECOMPILE_HEADERS)
       target_precompile_headers(${program} REUSE_FROM brdf_unit_tests)
     else()

@@ -77,6 +77,12 @@ EvalSpeed eval_speed_of(const Peer& peer) {
 
 }  // namespace
 
+double single_eval_nanoseconds(const Material& m) {
+  const Pool& pool = Pool::shared();
+  std::vector<float> f(static_cast<std::size_t>(m.channels()));
+  return pool.nanoseconds_scalar([&](std::size_t i) { m.eval(pool.wi.get(i), pool.wo.get(i), f); });
+}
+
 void measure_speed(const Material& m, BenchRow& row) {
   const Pool& pool = Pool::shared();
   const auto channels = static_cast<std::size_t>(m.channels());

@@ -10,6 +10,9 @@
 
 namespace brdf::cli {
 
+/// Of one evaluation, pair by pair, as a path tracer asks.
+double single_eval_nanoseconds(const Material& m);
+
 /// Fills the columns of eval, pdf and sample.
 void measure_speed(const Material& m, BenchRow& row);
 /// Fills the columns of eval.

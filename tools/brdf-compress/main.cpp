@@ -48,6 +48,9 @@ ExitCode run(int argc, char** argv) {
                          add_eval(program),
                          add_sample(program),
                          add_pdf(program),
+#ifdef BRDF_HAVE_RENDER
+                         add_plan(program),
+#endif
                          add_profile(program)};
   try {
     program.parse(argc, argv);

@@ -31,5 +31,7 @@ Verb add_eval(CLI::App& program);
 Verb add_sample(CLI::App& program);
 Verb add_pdf(CLI::App& program);
 Verb add_profile(CLI::App& program);
+/// Only where brdf::render is built.
+Verb add_plan(CLI::App& program);
 
 }  // namespace brdf::cli

@@ -87,6 +87,9 @@ PairedRender render_pair(const Scene& scene, std::span<const Surface> reference,
       o.seed = seed_of(options.seed, round, half);
       const double begin = (done + o.spp * turn / 4.0) / half_spp, share = o.spp / (4.0 * half_spp);
       const Progress part = [&](std::string_view stage, double of_run) { return !progress || progress(stage, begin + share * of_run); };
+      // also here, because a short run ends before it reports
+      complete = part("rendering", 0);
+      if (!complete) break;
       RenderResult& run = runs[static_cast<std::size_t>(half)][static_cast<std::size_t>(which)];
       run = render_scene(scene, o, part, which == 0 ? reference : candidate);
       complete = run.complete;

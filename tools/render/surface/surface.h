@@ -53,6 +53,8 @@ class Surface {
   bool has_values() const noexcept { return kind_ != Kind::black && (flags_ & sample_delta) == 0; }
 
   const Proposal& proposal() const noexcept { return proposal_; }
+  /// The measured table that it evaluates; null for all others.
+  const MeasuredTable* table() const noexcept { return table_.get(); }
   /// Delta lobes keep drawing their own directions.
   Surface with_proposal(Proposal proposal) const;
 
