@@ -110,6 +110,19 @@ TEST(Profile, FewerErrorsOfAnInstrumentWithSlicesSlow) {
   expect_gain(m, 25, peak, 1.3, 1.5);
 }
 
+// A profile that asks for everything alike leaves nothing to gain; the file is as good as the usual one that is as much smaller
+// as the chunk that says so.
+TEST(Profile, NoProfileMakesAFileWorseSlow) {
+  const auto decibels = [](const ProfileError& e) { return -20 * (2 * std::log10(e.rms) + std::log10(e.log_error)) / 3; };
+  for (const Measurement& m : {test::bumpy_measurement(), test::slice_measurement()})
+    for (const Asked& asked : {Asked([](const Vec3d&, const Vec3d&) { return true; }), grazing, peak}) {
+      const auto profile = profile_of(m, asked);
+      constexpr std::uint64_t chunk = 15;
+      const EncodeResult usual = compress(m, sized(300 - chunk)), fitted = compress(m, sized(300, profile));
+      EXPECT_GT(decibels(error_of(m, *profile, fitted.bytes)), decibels(error_of(m, *profile, usual.bytes)) - 0.3);
+    }
+}
+
 TEST(Profile, TheFileSaysWhatItIsFitFor) {
   const Measurement m = test::bumpy_measurement();
   EncodeOptions o = sized(250, profile_of(m, grazing));

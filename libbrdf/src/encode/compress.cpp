@@ -144,17 +144,22 @@ EncodeResult compress_without_cdf(const Measurement& m, const EncodeOptions& opt
   FitOptions lobe_options = fit_options(effort, options.threads);
   if (size < few_bytes) lobe_options.max_lobes += more_lobes;
   const MaterialProfile* const asked = options.profile.get();
-  std::optional<encode::QueryWeight> query_weight;
-  if (asked != nullptr) query_weight.emplace(m, *asked);
-  const encode::QueryWeight* const weight = query_weight ? &*query_weight : nullptr;
-  FitResult fit = encode::fit_asked(m, lobe_options, weight, [&](std::string_view stage, double done) {
+  // the usual weights have their say under a profile, too: the error model is an approximation, and the best measured file wins
+  const std::vector<encode::QueryWeight> asked_weights = encode::query_weights(m, asked, effort);
+  std::vector<const encode::QueryWeight*> weights;
+  for (const encode::QueryWeight& w : asked_weights) weights.push_back(&w);
+  weights.push_back(nullptr);
+  FitResult fit = encode::fit_asked(m, lobe_options, weights.front(), [&](std::string_view stage, double done) {
     return !progress || progress(stage, 0.35 * done);
   });
   summary.seconds_fit = seconds_since(start);
 
   stages.at("residual", 0.35);
   start = Clock::now();
-  const auto progress_of_search = [&](double share) { stages.at("residual", 0.35 + 0.5 * share); };
+  std::size_t run = 0;  // of the weights
+  const auto progress_of_search = [&](double share) {
+    stages.at("residual", 0.35 + 0.5 * (static_cast<double>(run) + share) / static_cast<double>(weights.size()));
+  };
   const double epsilon = encode::residual_epsilon(m);
   const encode::Asymmetry asymmetry = encode::measure_asymmetry(m, std::min(asymmetry_quality, effort.verify_quality));
   const encode::Azimuths azimuths = encode::azimuths(m, options.reciprocity, options.mirror, asymmetry, effort);
@@ -172,10 +177,10 @@ EncodeResult compress_without_cdf(const Measurement& m, const EncodeOptions& opt
     if (asked != nullptr) frame.purpose = encode::purpose_of(options);
     return frame;
   };
-  const auto search_for = [&](const container::Content& frame, const EffortStep& step, const encode::Verification& telling_apart, const auto& run) {
+  const auto search_for = [&](const container::Content& frame, const EffortStep& step, const encode::Verification& telling_apart, const auto& use) {
     const std::vector<residual::BasisCodes> bases = encode::basis_variants(frame.lobes, epsilon, step.variants);
-    const encode::SourceData source(m, frame, step, weight);
-    return run(source, encode::Search{bases, azimuths, options.level, telling_apart, options.threads, step.effort == effort.effort});
+    const encode::SourceData source(m, frame, step, weights[run]);
+    return use(source, encode::Search{bases, azimuths, options.level, telling_apart, options.threads, step.effort == effort.effort});
   };
 
   Encoded best;
@@ -184,7 +189,7 @@ EncodeResult compress_without_cdf(const Measurement& m, const EncodeOptions& opt
     for (int lobes = 1; lobes < static_cast<int>(best.content.lobes.lobes.size()) || (lobes == 1 && !best.content.residual.empty()); ++lobes) {
       FitOptions few = lobe_options;
       few.max_lobes = lobes;
-      FitResult smaller = encode::fit_asked(m, few, weight);
+      FitResult smaller = encode::fit_asked(m, few, weights.front());
       Encoded e = encode::lobes_only(frame_for(smaller));
       if (e.bytes.size() >= best.bytes.size() || !verification.score(e.bytes, options.level).meets(*options.target_error)) continue;
       best = std::move(e);
@@ -194,53 +199,59 @@ EncodeResult compress_without_cdf(const Measurement& m, const EncodeOptions& opt
   };
   double reciprocity_gain = 0, mirror_gain = 0;  // dB of keeping the asymmetry
   if (options.target_error) {
-    // every lower step has its say, so that more effort is never a larger file
     std::optional<Error> unmet;
-    for (const EffortStep& step : encode::effort_steps()) {
-      if (step.effort > effort.effort) break;
-      const bool last = step.effort == effort.effort;
-      FitResult lower = last ? std::move(fit) : encode::fit_asked(m, fit_options(step, options.threads), weight);
-      std::optional<encode::Verification> own;
-      if (!last) own.emplace(m, std::min(choosing_quality, step.verify_quality), options.threads, asked);
+    const auto try_step = [&](const EffortStep& step, FitResult lobes, const encode::Verification& telling_apart) {
       try {
-        Encoded e = search_for(frame_for(lower), step, own ? *own : choosing, [&](const encode::SourceData& source, const encode::Search& search) {
+        Encoded e = search_for(frame_for(lobes), step, telling_apart, [&](const encode::SourceData& source, const encode::Search& search) {
           return encode::encode_to_error(source, search, *options.target_error, verification, progress_of_search);
         });
-        if (best.bytes.empty() || e.bytes.size() < best.bytes.size()) {
-          best = std::move(e);
-          summary.fit = std::move(lower.summary);
-        }
+        if (!best.bytes.empty() && e.bytes.size() >= best.bytes.size()) return;
+        best = std::move(e);
+        summary.fit = std::move(lobes.summary);
       } catch (const Error& e) {
         if (e.code() != ErrorCode::target_not_met) throw;
         unmet = e;
       }
+    };
+    // every lower step has its say, so that more effort is never a larger file
+    for (const EffortStep& step : encode::effort_steps()) {
+      if (step.effort >= effort.effort) break;
+      const encode::Verification own(m, std::min(choosing_quality, step.verify_quality), options.threads, asked);
+      try_step(step, encode::fit_asked(m, fit_options(step, options.threads), weights.front()), own);
     }
+    for (run = 0; run < weights.size(); ++run)
+      try_step(effort, run == 0 ? std::move(fit) : encode::fit_asked(m, fit_options(effort, options.threads), weights[run]), choosing);
     if (best.bytes.empty()) throw *unmet;
     if (asked != nullptr) try_fewer_lobes();
   } else {
     double merit = 0;
     std::uint64_t smallest = UINT64_MAX;
-    // in a small file one lobe less may leave room for something better
-    for (;;) {
-      const container::Content frame = frame_for(fit);
+    const auto try_lobes = [&](FitResult& lobes, const container::Content& frame) {
       const std::uint64_t alone = encode::lobes_only(frame).bytes.size();
       smallest = std::min(smallest, alone);
-      if (alone <= size) {
-        encode::Found found = search_for(frame, effort, choosing, [&](const encode::SourceData& source, const encode::Search& search) {
-          return encode::encode_to_size(source, search, size, progress_of_search);
-        });
-        if (best.bytes.empty() || found.merit > merit) {
-          merit = found.merit;
-          reciprocity_gain = found.gain(residual::Azimuth::one_way, residual::Azimuth::symmetric);
-          mirror_gain = found.gain(residual::Azimuth::reciprocal, residual::Azimuth::symmetric);
-          best = std::move(found.file);
-          summary.fit = std::move(fit.summary);
-        }
+      if (alone > size) return;
+      encode::Found found = search_for(frame, effort, choosing, [&](const encode::SourceData& source, const encode::Search& search) {
+        return encode::encode_to_size(source, search, size, progress_of_search);
+      });
+      if (!best.bytes.empty() && found.merit <= merit) return;
+      merit = found.merit;
+      reciprocity_gain = found.gain(residual::Azimuth::one_way, residual::Azimuth::symmetric);
+      mirror_gain = found.gain(residual::Azimuth::reciprocal, residual::Azimuth::symmetric);
+      best = std::move(found.file);
+      summary.fit = std::move(lobes.summary);
+    };
+    for (run = 0; run < weights.size(); ++run) {
+      FitOptions lobe_limits = lobe_options;
+      if (run > 0) fit = encode::fit_asked(m, lobe_limits, weights[run]);
+      // in a small file one lobe less may leave room for something better
+      for (;;) {
+        const container::Content frame = frame_for(fit);
+        try_lobes(fit, frame);
+        const int fewer = static_cast<int>(frame.lobes.lobes.size()) - 1;
+        if (size >= few_bytes || fewer < 1) break;
+        lobe_limits.max_lobes = fewer;
+        fit = encode::fit_asked(m, lobe_limits, weights[run]);
       }
-      const int fewer = static_cast<int>(frame.lobes.lobes.size()) - 1;
-      if (size >= few_bytes || fewer < 1) break;
-      lobe_options.max_lobes = fewer;
-      fit = encode::fit_asked(m, lobe_options, weight);
     }
     if (best.bytes.empty())
       throw Error(ErrorCode::target_not_met, "compress: " + std::to_string(size) + " bytes cannot hold this material, the smallest file has " +

@@ -16,7 +16,7 @@ namespace brdf::encode {
 namespace {
 
 constexpr int places = 3;              // along each axis of a cell of the profile
-constexpr double asked_of_fit = 0.9;   // lobes carry what no residual corrects, so they stay closer to all of the measurement
+constexpr double most_of_fit = 0.9;    // lobes carry what no residual corrects, so they stay closer to all of the measurement
 constexpr double least_slope = 0.05, largest_slope = 20;  // squares, of the samples of the fit
 constexpr double darkest_cell = 1e-3;  // of the mean f that was asked for, as in the metric
 
@@ -42,7 +42,7 @@ double turn(double ratio, std::size_t i) noexcept { return std::fmod(0.5 + ratio
 
 }  // namespace
 
-QueryWeight::QueryWeight(const Measurement& m, const MaterialProfile& asked) {
+QueryWeight::QueryWeight(const Measurement& m, const MaterialProfile& asked, double share) : share_(share) {
   const MeasurementInterpolator reference(m);
   const auto n = static_cast<std::size_t>(m.channels.count);
   std::vector<double> f(n);
@@ -91,8 +91,8 @@ void QueryWeight::blend(const Bins& bins, const residual::Basis& basis, std::vec
   }
   const double usual = sum_of(weights), wanted = sum_of(asked);
   if (!(wanted > 0)) return;
-  const double scale = asked_share * usual / wanted;
-  for (std::size_t i = 0; i < weights.size(); ++i) weights[i] = (1 - asked_share) * weights[i] + scale * asked[i];
+  const double scale = share_ * usual / wanted;
+  for (std::size_t i = 0; i < weights.size(); ++i) weights[i] = (1 - share_) * weights[i] + scale * asked[i];
 }
 
 fit::SampleSet QueryWeight::samples(const Measurement& m, int count) const {
@@ -125,6 +125,7 @@ fit::SampleSet QueryWeight::samples(const Measurement& m, int count) const {
 
   fit::SampleSet all;
   all.channels = m.channels.count;
+  const double asked_of_fit = std::min(share_, most_of_fit);
   const double usual_scale = (1 - asked_of_fit) / std::max(sum_of(usual.weight), 1e-300), asked_scale = asked_of_fit / sum_of(asked.weight);
   const auto take = [&](const fit::SampleSet& from, std::size_t i, double scale) {
     if (i >= from.size()) return;
@@ -138,6 +139,15 @@ fit::SampleSet QueryWeight::samples(const Measurement& m, int count) const {
     take(asked, i, asked_scale);
   }
   return all;
+}
+
+std::vector<QueryWeight> query_weights(const Measurement& m, const MaterialProfile* asked, const EffortStep& effort) {
+  constexpr int careful_from = 50;  // effort
+  std::vector<QueryWeight> weights;
+  if (asked == nullptr) return weights;
+  weights.emplace_back(m, *asked, asked_share);
+  if (effort.effort >= careful_from) weights.emplace_back(m, *asked, careful_share);
+  return weights;
 }
 
 FitResult fit_asked(const Measurement& m, const FitOptions& options, const QueryWeight* weight, const Progress& progress) {

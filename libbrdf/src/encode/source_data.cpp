@@ -17,7 +17,7 @@ const WeightedBins& SourceData::bins(const residual::BasisCodes& codes) const {
   });
 }
 
-double SourceData::environment_weight() const noexcept { return MetricMix{}.environment * (asked_ != nullptr ? 1 - asked_share : 1.0); }
+double SourceData::environment_weight() const noexcept { return MetricMix{}.environment * (asked_ != nullptr ? 1 - asked_->share() : 1.0); }
 
 const metrics::QuerySet& SourceData::queries() const {
   return queries_.get(0, [&] { return effort.image_quality > 0 ? metrics::build_queries(effort.image_quality) : metrics::QuerySet{}; });

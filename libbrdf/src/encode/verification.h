@@ -14,7 +14,7 @@
 namespace brdf::encode {
 
 /// One figure over the three that are reported, in decibels; larger is better. What a search for the best file of a size
-/// compares. Of a report with errors under a profile nearly all is -20 log10 of their rms.
+/// compares. Of a report with errors under a profile nearly all are those.
 double merit(const ErrorReport& r) noexcept;
 
 /// Scores decoded files against one measurement. Single-pair evaluation throughout: the recorded figures must not depend
