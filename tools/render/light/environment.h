@@ -24,12 +24,16 @@ class Environment {
   /// Density of `sample`, per solid angle.
   float pdf(const Vec3f& direction) const noexcept;
   Vec3f sample(const glm::vec2& u, float& pdf) const noexcept;
+  /// Both at once, for less than each on its own.
+  Vec3f radiance_pdf(const Vec3f& direction, float& pdf) const noexcept;
+  Vec3f sample_radiance(const glm::vec2& u, float& pdf, Vec3f& radiance) const noexcept;
 
   /// Integral of the luminance over all directions.
   float power() const noexcept { return power_; }
 
  private:
   glm::vec2 place(const Vec3f& direction) const noexcept;
+  Vec3f radiance_at(const glm::vec2& uv) const noexcept;
 
   Vec3f constant_{0};
   Image map_;

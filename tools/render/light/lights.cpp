@@ -54,9 +54,8 @@ LightSample Lights::sample(const Vec3f& point, float choose, const glm::vec2& u)
     const DirectionalLight& d = directional_[i];
     s = {d.to_light, std::numeric_limits<float>::infinity(), d.irradiance, 1, true};
   } else {
-    s.direction = environment_->sample(u, s.pdf);
+    s.direction = environment_->sample_radiance(u, s.pdf, s.radiance);
     s.distance = std::numeric_limits<float>::infinity();
-    s.radiance = environment_->radiance(s.direction);
   }
   s.pdf *= chosen;
   return s;
@@ -86,8 +85,9 @@ LightSample Lights::sample_area(const Area& light, const Vec3f& point, const glm
 Vec3f Lights::background(const Vec3f& direction, float& pdf) const noexcept {
   pdf = 0;
   if (!environment_) return Vec3f(0);
-  pdf = environment_->pdf(direction) * choice_.probability(choice_.size() - 1);
-  return environment_->radiance(direction);
+  const Vec3f radiance = environment_->radiance_pdf(direction, pdf);
+  pdf *= choice_.probability(choice_.size() - 1);
+  return radiance;
 }
 
 Vec3f Lights::area(std::uint32_t i, float cosine, float distance, float& pdf) const noexcept {

@@ -1,8 +1,10 @@
 // SPDX-License-Identifier: Apache-2.0
-// Densities on [0, 1) and on its square that are constant in cells of equal size, sampled by inversion.
+// Densities on [0, 1) and on its square that are constant in cells of equal size, sampled by the alias method (Walker 1977;
+// tables by Vose 1991): one place in memory is read for a draw, whatever the number of cells.
 #pragma once
 
 #include <cstddef>
+#include <cstdint>
 #include <glm/vec2.hpp>
 #include <span>
 #include <vector>
@@ -21,14 +23,19 @@ class PiecewiseConstant1D {
     std::size_t cell = 0;
   };
   Draw sample(float u) const noexcept;
-  float density(std::size_t cell) const noexcept { return density_[cell]; }
+  float density(std::size_t cell) const noexcept { return cells_[cell].density; }
   /// Probability of a cell.
-  float probability(std::size_t cell) const noexcept { return density_[cell] / static_cast<float>(density_.size()); }
-  std::size_t size() const noexcept { return density_.size(); }
+  float probability(std::size_t cell) const noexcept { return cells_[cell].density / static_cast<float>(cells_.size()); }
+  std::size_t size() const noexcept { return cells_.size(); }
   double sum() const noexcept { return sum_; }  ///< of the weights
 
  private:
-  std::vector<float> cdf_, density_;
+  /// A draw takes this cell or, beyond `own` of its width, the other one.
+  struct Cell {
+    float own = 1, density = 0, other_density = 0;
+    std::uint32_t other = 0;
+  };
+  std::vector<Cell> cells_;
   double sum_ = 0;
 };
 
@@ -49,6 +56,7 @@ class PiecewiseConstant2D {
  private:
   PiecewiseConstant1D rows_;
   std::vector<PiecewiseConstant1D> columns_;
+  std::vector<float> density_;  ///< of every cell, together in memory
 };
 
 }  // namespace brdf::render

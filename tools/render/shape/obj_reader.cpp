@@ -6,6 +6,7 @@
 
 #include <brdf/error.h>
 
+#include <algorithm>
 #include <array>
 #include <cmath>
 #include <unordered_map>
