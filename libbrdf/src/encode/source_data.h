@@ -34,7 +34,7 @@ struct SliceSource {
 class SourceData {
  public:
   /// All are kept by reference; `asked` may be null.
-  SourceData(const Measurement& m, const container::Content& all_but_residual, const EffortStep& step, const QueryWeight* asked)
+  SourceData(const Measurement& m, const container::Content& all_but_residual, const EffortStep& step, const QueryWeight* asked = nullptr)
       : measurement(m), frame(all_but_residual), effort(step), asked_(asked) {}
 
   const Measurement& measurement;

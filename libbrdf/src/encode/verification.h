@@ -22,7 +22,7 @@ double merit(const ErrorReport& r) noexcept;
 class Verification {
  public:
   /// With `asked` reports have the errors under that profile, too.
-  Verification(const Measurement& m, double quality, int threads, const MaterialProfile* asked);
+  Verification(const Measurement& m, double quality, int threads, const MaterialProfile* asked = nullptr);
   ErrorReport score(const Material& material) const;
   /// Of a file, or of one that is cut at a refinement boundary.
   ErrorReport score(std::span<const std::byte> bytes, EvalLevel level) const;
