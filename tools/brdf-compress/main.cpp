@@ -1,10 +1,10 @@
 // SPDX-License-Identifier: Apache-2.0
 // brdf-compress: measured BRDFs to a few kilobytes and back, and every question about them.
-#include <brdf/error.h>
 #include <brdf/version.h>
 
-#include "interrupt.h"
+#include "command_line.h"
 #include "messages.h"
+#include "run_program.h"
 #include "standard_output.h"
 #include "verbs.h"
 
@@ -12,8 +12,6 @@
 
 #include <algorithm>
 #include <array>
-#include <exception>
-#include <new>
 #include <sstream>
 #include <string>
 
@@ -33,24 +31,6 @@ ExitCode usage_error(const CLI::App& program, const std::string& sentence) {
   return ExitCode::usage;
 }
 
-/// The arguments as a shell would take them again.
-std::string command_line(int argc, char** argv) {
-  std::string line = "brdf-compress";
-  for (int i = 1; i < argc; ++i) {
-    const std::string word = argv[i];
-    const bool plain = !word.empty() && word.find_first_of(" \t\n\"'\\$`&|;<>()*?[]#~!{}") == std::string::npos;
-    line += ' ';
-    if (plain) {
-      line += word;
-      continue;
-    }
-    line += '\'';
-    for (const char c : word) line += c == '\'' ? std::string("'\\''") : std::string(1, c);
-    line += '\'';
-  }
-  return line;
-}
-
 ExitCode run(int argc, char** argv) {
   CLI::App program{"Compresses measured BRDFs, and evaluates, samples, verifies and compares them.", "brdf-compress"};
   program.set_version_flag("--version", std::string("brdf-compress ") + version());
@@ -63,7 +43,7 @@ ExitCode run(int argc, char** argv) {
                          add_verify(program),
                          add_compare(program),
                          add_where(program),
-                         add_bench(program, command_line(argc, argv)),
+                         add_bench(program, command_line("brdf-compress", argc, argv)),
                          add_eval(program),
                          add_sample(program),
                          add_pdf(program)};
@@ -83,20 +63,5 @@ ExitCode run(int argc, char** argv) {
 }  // namespace
 
 int main(int argc, char** argv) {
-  install_signal_handlers();
-  ExitCode code = ExitCode::failed;
-  try {
-    code = run(argc, argv);
-  } catch (const Failure& e) {
-    complain(e.what());
-    code = e.code();
-  } catch (const Error& e) {
-    complain(e.what());
-    code = exit_code_of(e.code());
-  } catch (const std::bad_alloc&) {
-    complain("out of memory");
-  } catch (const std::exception& e) {
-    complain(e.what());
-  }
-  return static_cast<int>(code);
+  return run_program("brdf-compress", [=] { return run(argc, argv); });
 }

@@ -9,17 +9,44 @@
 namespace brdf::gonio {
 namespace {
 
-constexpr std::array<SurfaceRecipe, 3> recipes{{
-    {"lacquer",
-     "clear coat with a little haze over a red base",
-     0.07,
-     0.25,
-     0.2,
-     {1.5, 1.5, 1.5},
-     {0, 0, 0},
-     {0.62, 0.09, 0.05}},
-    {"matte", "rough clear coat over a warm grey base", 0.45, 0.8, 0.3, {1.5, 1.5, 1.5}, {0, 0, 0}, {0.58, 0.52, 0.44}},
-    {"metal", "satin copper without a coat", 0.18, 0.4, 0.15, {0.200, 0.924, 1.102}, {3.912, 2.452, 2.142}, {0, 0, 0}},
+constexpr std::array<double, 3> glass{1.5, 1.5, 1.5}, clear{0, 0, 0}, no_base{0, 0, 0};
+
+constexpr std::array<SurfaceRecipe, 8> recipes{{
+    {"lacquer", "clear coat with a little haze over a red base", 0.07, 0.25, 0.2, glass, clear, {0.62, 0.09, 0.05}},
+    {"matte", "rough clear coat over a warm grey base", 0.45, 0.8, 0.3, glass, clear, {0.58, 0.52, 0.44}},
+    {"metal", "satin copper without a coat", 0.18, 0.4, 0.15, {0.200, 0.924, 1.102}, {3.912, 2.452, 2.142}, no_base},
+    {"plaster", "white, nearly diffuse, hardly any gloss", 0.9, 1, 0.3, {1.2, 1.2, 1.2}, clear, {0.86, 0.85, 0.82}},
+    {"satin", "blue paint of middling gloss", 0.25, 0.5, 0.3, glass, clear, {0.05, 0.16, 0.5}},
+    {.name = "felt",
+     .description = "green fibres that glow at grazing angles",
+     .alpha = 0.8,
+     .haze_alpha = 1,
+     .haze_share = 0.5,
+     .ior = {1.2, 1.2, 1.2},
+     .extinction = clear,
+     .base = {0.09, 0.24, 0.1},
+     .fibre_alpha = 0.25,
+     .fibre_colour = {0.16, 0.3, 0.14}},
+    {.name = "reflector",
+     .description = "grey tape with glass beads, which sends light back to the lamp",
+     .alpha = 0.3,
+     .haze_alpha = 0.6,
+     .haze_share = 0.4,
+     .ior = glass,
+     .extinction = clear,
+     .base = {0.2, 0.2, 0.21},
+     .retro_alpha = 0.12,
+     .retro_share = 0.35,
+     .retro_colour = {0.8, 0.82, 0.85}},
+    {.name = "grit",
+     .description = "coarse dark grit, measured badly: noise of a quarter of the signal",
+     .alpha = 0.5,
+     .haze_alpha = 0.9,
+     .haze_share = 0.4,
+     .ior = {1.6, 1.6, 1.6},
+     .extinction = clear,
+     .base = {0.16, 0.13, 0.1},
+     .noise = 0.25},
 }};
 
 /// D G2 / (4 cos_i cos_o): GGX (Walter et al. 2007, eq. 33), Smith height-correlated shadowing (Heitz 2014, eq. 99).
@@ -72,11 +99,21 @@ std::array<double, 3> LayeredSurface::eval(const glm::dvec3& wi, const glm::dvec
   const auto g = geometry::half_difference(wi, wo);
   const double gloss = (1 - recipe_.haze_share) * microfacets(g.sin_theta_h, g.cos_theta_h, wi.z, wo.z, recipe_.alpha) +
                        recipe_.haze_share * microfacets(g.sin_theta_h, g.cos_theta_h, wi.z, wo.z, recipe_.haze_alpha);
+  double retro = 0, fibres = 0;
+  if (recipe_.retro_share > 0) {  // the same microfacets, seen by a viewer who stands opposite
+    const auto r = geometry::half_difference(wi, glm::dvec3(-wo.x, -wo.y, wo.z));
+    retro = recipe_.retro_share * microfacets(r.sin_theta_h, r.cos_theta_h, wi.z, wo.z, recipe_.retro_alpha);
+  }
+  if (recipe_.fibre_colour != std::array<double, 3>{}) {
+    // Estevez and Kulla 2017, "Production Friendly Microfacet Sheen BRDF", eq. 2, with the visibility of Neubelt and Pettineo 2013
+    const double d = (2 + 1 / recipe_.fibre_alpha) * std::pow(g.sin_theta_h, 1 / recipe_.fibre_alpha) / (2 * std::numbers::pi);
+    fibres = d / (4 * (wi.z + wo.z - wi.z * wo.z));
+  }
   std::array<double, 3> f{};
   for (std::size_t c = 0; c < f.size(); ++c) {
     const double n = recipe_.ior[c], k = recipe_.extinction[c];
-    f[c] = fresnel(g.cos_theta_d, n, k) * gloss;
-    if (base_[c] > 0) f[c] += base_[c] * (1 - fresnel(wi.z, n, k)) * (1 - fresnel(wo.z, n, k));
+    f[c] = (1 - recipe_.retro_share) * fresnel(g.cos_theta_d, n, k) * gloss + recipe_.retro_colour[c] * retro + recipe_.fibre_colour[c] * fibres;
+    if (base_[c] > 0) f[c] += (1 - recipe_.retro_share) * base_[c] * (1 - fresnel(wi.z, n, k)) * (1 - fresnel(wo.z, n, k));
   }
   return f;
 }

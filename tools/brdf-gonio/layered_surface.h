@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// Surfaces that the simulated instrument can look at: a rough interface over a coloured diffuse base.
+// Surfaces that the simulated instrument can look at: a rough interface over a coloured diffuse base, with retro-reflecting
+// beads in it or fibres on it where the recipe says so.
 #pragma once
 
 #include <array>
@@ -16,6 +17,11 @@ struct SurfaceRecipe {
   double haze_alpha, haze_share;          ///< share of the area that is rougher
   std::array<double, 3> ior, extinction;  ///< complex index of refraction for red, green, blue; k = 0: dielectric
   std::array<double, 3> base;             ///< reflectance of the base below the interface
+  double noise = 0.03;                    ///< of its measurement, relative standard deviation at normal incidence
+  double retro_alpha = 0.1, retro_share = 0;  ///< share of the area that sends light back where it came from, and its roughness
+  std::array<double, 3> retro_colour{0, 0, 0};
+  double fibre_alpha = 0.3;               ///< how upright fibres on the surface stand
+  std::array<double, 3> fibre_colour{0, 0, 0};
 };
 
 /// The named surfaces; the first is the default.

@@ -18,6 +18,7 @@
 #include <filesystem>
 #include <iostream>
 #include <numbers>
+#include <optional>
 #include <string>
 
 namespace {
@@ -31,7 +32,7 @@ struct Options {
   std::filesystem::path out;
   std::string surface{surface_recipes().front().name};
   std::uint64_t seed = 1;
-  double noise = 0.03;
+  std::optional<double> noise;
   bool force = false, list = false;
 };
 
@@ -84,15 +85,16 @@ int sample(const Options& o) {
     std::cerr << "brdf-gonio: --surface is " << o.surface << ", allowed are the names of --list\n";
     return exit_usage;
   }
-  if (!(o.noise >= 0 && o.noise <= 1)) {
-    std::cerr << "brdf-gonio: --noise is " << o.noise << ", allowed is 0 to 1\n";
+  const double noise = o.noise.value_or(recipe->noise);
+  if (!(noise >= 0 && noise <= 1)) {
+    std::cerr << "brdf-gonio: --noise is " << noise << ", allowed is 0 to 1\n";
     return exit_usage;
   }
   if (!o.force && std::filesystem::exists(o.out)) {  // said before the work; the writer checks again
     std::cerr << "brdf-gonio: " << o.out.string() << ": file exists, use -f to replace it\n";
     return exit_failed;
   }
-  const HalfDifferenceTable table = measure(LayeredSurface(*recipe), InstrumentNoise(o.seed, o.noise));
+  const HalfDifferenceTable table = measure(LayeredSurface(*recipe), InstrumentNoise(o.seed, noise));
   base::write_file_atomically(o.out, ingest::write_merl(table), o.force);
   return exit_ok;
 }
@@ -109,8 +111,7 @@ int main(int argc, char** argv) {
   verb->add_option("-o,--output", o.out, "File to write");
   verb->add_option("--surface", o.surface, "Surface, one of --list")->capture_default_str();
   verb->add_option("--seed", o.seed, "Seed of the noise; the same seed gives the same file")->capture_default_str();
-  verb->add_option("--noise", o.noise, "Relative standard deviation at normal incidence, 0 to 1")
-      ->capture_default_str();
+  verb->add_option("--noise", o.noise, "Relative standard deviation at normal incidence, 0 to 1 (default: the surface's own)");
   verb->add_flag("--list", o.list, "List the surfaces");
   verb->add_flag("-f,--force", o.force, "Replace an existing file");
   try {

@@ -3,6 +3,7 @@
 /// What a renderer holds: an immutable, thread-safe handle, cheap to copy.
 #pragma once
 
+#include <brdf/analytic.h>
 #include <brdf/direction.h>
 #include <brdf/limits.h>
 #include <brdf/lobes.h>
@@ -79,6 +80,12 @@ class Material {
   /// A material of analytic lobes alone. Throws Error(invalid_argument).
   static Material from_lobes(const LobeSet& lobes);
 
+  /// A material of a formula. It needs no tables: every level is the same, it is always ready to be sampled, and info()
+  /// tells of no refinements and no errors. lobes() holds the equal lobe of a Lambertian and of an isotropic GGX reflector
+  /// without multiple scattering, and none for the others. Three channels are RGB, one is a scalar, others are spectral
+  /// without wavelengths. Throws Error(invalid_argument).
+  static Material from_analytic(const AnalyticModel& model);
+
   /// A new handle with the tables of `level` built. May allocate and throw Error(limit_exceeded).
   Material prepare(EvalLevel level, bool sampling) const;
   /// The same, for sampling if this one is.
@@ -88,6 +95,10 @@ class Material {
   EvalLevel level() const noexcept;
   const MaterialInfo& info() const noexcept;
   const LobeSet& lobes() const noexcept;
+  const AnalyticModel* analytic() const noexcept;  ///< the formula of an analytic material; null for others
+  /// Union of the flags that samples can carry: sample_reflection for what was measured. With sample_delta, samples are delta
+  /// ones, eval and pdf are 0. With sample_transmission both sides scatter, and wi may be on the other side than wo.
+  std::uint32_t scatter_flags() const noexcept;
   bool sampling() const noexcept;                 ///< prepared for sampling
   std::uint64_t resident_bytes() const noexcept;  ///< of the tables that evaluation touches
   std::uint64_t sampling_bytes() const noexcept;  ///< of the tables that sample and pdf touch beside them; 0 without
@@ -101,17 +112,25 @@ class Material {
   /// the horizon; u.x chooses the component of the mixture that is warped to: one of the two tabulated views around wo and,
   /// of a material that has them, the retro lobes. pdf is that of the whole mixture. `weight` = f cos_i / pdf per channel.
   /// Nothing is rejected: only with wo at or below the horizon pdf is 0, weight 0 and no flag set.
+  ///
+  /// Analytic materials: a GGX reflector is drawn by its visible normals and, with multiple scattering, by the cosine, with
+  /// u.x for the choice. A delta lobe needs no (u.y, u.z); u.x chooses between reflection and transmission, pdf is the
+  /// probability of the choice, weight = f cos_i / pdf is what the light is multiplied by. A transmitting material takes wo below
+  /// the surface, too; with wo exactly in it pdf is 0. eta is the index of refraction on wi's side over that on wo's. In `mode`
+  /// radiance the weight of a transmission holds 1 / eta^2, in `mode` importance it does not (Veach 1997, sec. 5.2).
   Sample sample(const Vec3f& wo, const Vec3f& u, std::span<float> weight,
                 TransportMode mode = TransportMode::radiance) const noexcept;
   /// Directional albedo: integral of f cos_i over wi, by deterministic quadrature: the mean of the weights of 9216 samples
-  /// (about 1e-3 relative where the material is prepared for sampling; without, narrow lobes are missed).
+  /// (about 1e-3 relative where the material is prepared for sampling; without, narrow lobes are missed). Of delta lobes the
+  /// closed form: the share of the power that goes on, without factors of eta.
   void albedo(const Vec3f& wo, std::span<float> a) const noexcept;
 
   /// Batches: any size, any alignment, in place not allowed. The instruction set is chosen at run time.
   void eval(DirectionSpan wi, DirectionSpan wo, PlanarSpan f) const noexcept;
   void pdf(DirectionSpan wi, DirectionSpan wo, float* pdf) const noexcept;
   void eval_pdf(DirectionSpan wi, DirectionSpan wo, PlanarSpan f, float* pdf) const noexcept;
-  /// u as three planes in a DirectionSpan; writes wi, pdf and weight.
+  /// u as three planes in a DirectionSpan; writes wi, pdf and weight. Flags and eta follow: scatter_flags() tells of delta
+  /// lobes, and what changes sides (wi.z wo.z < 0) was transmitted.
   void sample(DirectionSpan wo, DirectionSpan u, MutableDirectionSpan wi, float* pdf, PlanarSpan weight,
               TransportMode mode = TransportMode::radiance) const noexcept;
 

@@ -2,6 +2,7 @@
 // Bytes or lobes to a Material, and a Material to another evaluation level.
 #include "container/content.h"
 #include "container/density_codes.h"
+#include "decode/analytic_material.h"
 #include "decode/memory_need.h"
 #include "decode/resample_slices.h"
 #include "decode/sampling_tables.h"
@@ -112,9 +113,10 @@ Material Material::prepare(EvalLevel level) const { return prepare(level, sampli
 
 Material Material::prepare(EvalLevel level, bool sampling) const {
   if (level == this->level()) {
-    if (sampling == this->sampling()) return *this;
+    if (sampling == this->sampling() || impl_->model) return *this;
     return with_sampling(impl_, sampling);
   }
+  if (impl_->model) return Material(decode::analytic_impl(impl_->info, *impl_->model, level, impl_->scatterer));
   const auto* source = static_cast<const Source*>(impl_->source.get());
   auto impl = eval::make_impl(impl_->info, impl_->lobes, source != nullptr ? residual_for(*source, impl_->lobes, level) : eval::Residual{}, level);
   impl->source = impl_->source;

@@ -2,6 +2,7 @@
 // What a Material handle shares.
 #pragma once
 
+#include "analytic/scatterer.h"
 #include "eval/tables.h"
 #include "residual/residual_grid.h"
 
@@ -35,6 +36,9 @@ struct Material::Impl {
   EvalLevel level = EvalLevel::fast;
   eval::Tables tables;
   std::shared_ptr<const void> source;  ///< the decoder's coefficients, from which prepare() builds other levels
+  std::optional<AnalyticModel> model;
+  std::shared_ptr<const analytic::Scatterer> scatterer;  ///< who samples a model; null: the tables, or the cosine
+  const analytic::GgxScatter* facets = nullptr;          ///< of `scatterer`; who evaluates a model, null: the tables
 
   Impl() = default;
   Impl(const Impl&) = delete;

@@ -17,7 +17,26 @@ constexpr std::size_t strata = 96;  ///< along each number
 /// Channels that one pass keeps on the stack, and the weights of one call.
 constexpr std::size_t max_channels = 1024, max_weights = 16384;
 
+/// Each channel is a mixture of the same two means, so their number does not matter.
+void albedo_of(const analytic::GgxScatter& s, const Vec3f& wo, std::span<float> a) noexcept {
+  analytic::GgxScatter::Parts mean;
+  constexpr double share = 1.0 / (strata * strata);
+  for (std::size_t row = 0; row < strata; ++row)
+    for (std::size_t column = 0; column < strata; ++column) {
+      const auto weight = s.facet_weight(wo, lattice_point(row, column, strata));
+      mean.plain += share * weight.plain;
+      mean.white += share * weight.white;
+    }
+  for (std::size_t c = 0; c < a.size(); ++c) a[c] = static_cast<float>(s.albedo(c, wo, mean));
+}
+
 }  // namespace
+
+void albedo(const analytic::Scatterer& s, const Vec3f& wo, std::span<float> a) noexcept {
+  if (const auto* facets = std::get_if<analytic::GgxScatter>(&s)) return albedo_of(*facets, wo, a);
+  if (const auto* mirror = std::get_if<analytic::MirrorScatter>(&s)) return mirror->albedo(wo, a);
+  if (const auto* glass = std::get_if<analytic::DielectricScatter>(&s)) return glass->albedo(wo, a);
+}
 
 void albedo(const eval::Tables& t, const Material::Sampling* s, const Vec3f& wo, std::span<float> a) noexcept {
   const auto channels = static_cast<std::size_t>(t.lobes.channels);

@@ -10,7 +10,7 @@
 
 namespace brdf::cli {
 
-/// One line on stderr that is redrawn and taken away at the end. Shown on a terminal only, and not with -q.
+/// One line on stderr, with the time since it was made and what is left by its share, that is redrawn and taken away at the end. Shown on a terminal only, and not with -q.
 class ProgressBar {
  public:
   explicit ProgressBar(const Reporting& reporting);
@@ -26,7 +26,7 @@ class ProgressBar {
 
  private:
   bool enabled_, drawn_ = false;
-  std::chrono::steady_clock::time_point last_{};
+  std::chrono::steady_clock::time_point start_ = std::chrono::steady_clock::now(), last_{};
 };
 
 }  // namespace brdf::cli

@@ -9,6 +9,18 @@
 #include <string>
 
 namespace brdf::cli {
+namespace {
+
+/// "0:07", "12:30", "3:05:00".
+std::string shown_time(double seconds) {
+  const long whole = std::lround(std::min(seconds, 1e9));
+  char text[32];
+  if (whole < 3600) std::snprintf(text, sizeof text, "%ld:%02ld", whole / 60, whole % 60);
+  else std::snprintf(text, sizeof text, "%ld:%02ld:%02ld", whole / 3600, whole / 60 % 60, whole % 60);
+  return text;
+}
+
+}  // namespace
 
 ProgressBar::ProgressBar(const Reporting& reporting) : enabled_(!reporting.quiet && ::isatty(STDERR_FILENO) != 0) {}
 
@@ -22,7 +34,10 @@ void ProgressBar::show(std::string_view stage, double done) {
   const double share = std::clamp(done, 0.0, 1.0);
   const auto filled = static_cast<std::size_t>(std::lround(share * width));
   const std::string bar = std::string(filled, '#') + std::string(width - filled, '.');
-  std::fprintf(stderr, "\r\033[K[%s] %3.0f %%  %.*s", bar.c_str(), share * 100,
+  const double seconds = std::chrono::duration<double>(now - start_).count();
+  // what the first moments promise is worth nothing
+  const std::string left = seconds > 1 && share > 0.01 ? ", " + shown_time(seconds * (1 - share) / share) + " left" : "";
+  std::fprintf(stderr, "\r\033[K[%s] %3.0f %%  %s%s  %.*s", bar.c_str(), share * 100, shown_time(seconds).c_str(), left.c_str(),
                static_cast<int>(std::min<std::size_t>(stage.size(), 40)), stage.data());
   std::fflush(stderr);
 }

@@ -8,11 +8,14 @@ namespace brdf::cli {
 /// partial can be left. SIGPIPE is ignored; writing to a closed pipe is then an error like any other.
 void install_signal_handlers();
 
-/// While one exists a signal waits: a file is being put in its place.
+/// While one exists a signal waits: a file is being put in its place, or what there is must be written first. The last one
+/// that goes ends the program if a signal has come.
 class DeferInterrupt {
  public:
   DeferInterrupt() noexcept;
   ~DeferInterrupt();
+  /// Whether a signal waits.
+  bool arrived() const noexcept;
   DeferInterrupt(const DeferInterrupt&) = delete;
   DeferInterrupt& operator=(const DeferInterrupt&) = delete;
 };

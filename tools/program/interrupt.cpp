@@ -42,11 +42,13 @@ void install_signal_handlers() {
   ::signal(SIGXFSZ, SIG_IGN);  // a file beyond the size that the user may write: the write itself then says so
 }
 
-DeferInterrupt::DeferInterrupt() noexcept { deferred = 1; }
+DeferInterrupt::DeferInterrupt() noexcept { deferred = deferred + 1; }
+
+bool DeferInterrupt::arrived() const noexcept { return pending != 0; }
 
 DeferInterrupt::~DeferInterrupt() {
-  deferred = 0;
-  if (pending != 0) leave(pending);
+  deferred = deferred - 1;
+  if (deferred == 0 && pending != 0) leave(pending);
 }
 
 }  // namespace brdf::cli

@@ -18,6 +18,10 @@ struct Reporting {
   void detail(const std::string& line) const;
 };
 
+/// Name that begins every complaint and the schema of every report; main sets it once.
+void set_program_name(const std::string& name);
+const std::string& program_name() noexcept;
+
 /// "brdf-compress: sentence". Shown always.
 void complain(const std::string& sentence);
 
