@@ -3,6 +3,7 @@
 #include "input_file.h"
 #include "output_file.h"
 #include "progress_bar.h"
+#include "progress_lines.h"
 #include "standard_output.h"
 #include "verb_options.h"
 #include "verbs.h"
@@ -20,6 +21,7 @@ struct Options {
   std::string input, output;
   EncodeOptions encode;
   int threads = 0;
+  int progress_descriptor = -1;
   SamplePosition position = SamplePosition::edge;
   bool force = false;
   Reporting reporting;
@@ -70,7 +72,7 @@ ExitCode run(const Options& o) {
   EncodeResult result;
   {
     ProgressBar bar(o.reporting);
-    result = compress(m, options, bar.callback());
+    result = compress(m, options, o.progress_descriptor < 0 ? bar.callback() : progress_lines(o.progress_descriptor));
   }
   write_output(o.output, result.bytes, o.force);
   const CompressReport report{o.input, o.output, m, options, result.summary};
@@ -128,6 +130,9 @@ Verb add_compress(CLI::App& program) {
   verb->add_flag("--provenance", o->encode.store_provenance, "Store name, format, licence and hash of the source");
   verb->add_flag("--store-cdf", o->encode.store_cdf, "Store the sampling tables of --eval: some kilobytes, and decoding need not build them");
   add_threads(*verb, o->threads);
+  verb->add_option("--progress-descriptor", o->progress_descriptor, "Write lines 'SHARE STAGE' to this open file descriptor")
+      ->type_name("N")
+      ->check(CLI::Range(1, 1023));
   add_reporting(*verb, o->reporting);
   verb->footer(
       preset_help() +

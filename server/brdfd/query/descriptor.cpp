@@ -19,7 +19,9 @@ Pair pair_at(double theta_h, double theta_d) noexcept {
   return {Vec3f(Vec3d(sh * cd, sd, ch * cd)), Vec3f(Vec3d(sh * cd, -sd, ch * cd))};
 }
 
-std::array<double, 3> to_rgb(const Channels& channels, std::span<const float> f) {
+}  // namespace
+
+std::array<double, 3> descriptor_color(const Channels& channels, std::span<const float> f) {
   const auto at = [&f](std::size_t c) { return static_cast<double>(f[c]); };
   if (channels.model == ChannelModel::rgb && f.size() == 3) return {at(0), at(1), at(2)};
   if (channels.model == ChannelModel::xyz && f.size() == 3) {  // IEC 61966-2-1
@@ -43,8 +45,6 @@ std::array<double, 3> to_rgb(const Channels& channels, std::span<const float> f)
   return rgb;
 }
 
-}  // namespace
-
 Descriptor describe(const Material& material) {
   constexpr double degree = std::numbers::pi / 180;
   Descriptor d{};
@@ -54,7 +54,7 @@ Descriptor describe(const Material& material) {
     for (const double theta_h : descriptor_theta_h) {
       const Pair p = pair_at(theta_h * degree, theta_d * degree);
       material.eval(p.wi, p.wo, f);
-      for (const double value : to_rgb(material.info().channels, f)) {
+      for (const double value : descriptor_color(material.info().channels, f)) {
         const double x = std::max(value * static_cast<double>(p.wi.z), 0.0);
         d[next++] = static_cast<float>(std::cbrt(x / (1 + x / 8)));
       }

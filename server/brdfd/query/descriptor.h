@@ -6,6 +6,7 @@
 
 #include <array>
 #include <cstddef>
+#include <span>
 
 namespace brdf::service {
 
@@ -21,5 +22,8 @@ inline constexpr std::size_t descriptor_size = descriptor_theta_h.size() * descr
 using Descriptor = std::array<float, descriptor_size>;
 
 Descriptor describe(const Material& material);
+
+/// The colour that the descriptor sees of values of channels.
+std::array<double, 3> descriptor_color(const Channels& channels, std::span<const float> f);
 
 }  // namespace brdf::service

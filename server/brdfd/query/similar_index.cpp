@@ -9,14 +9,13 @@
 namespace brdf::service {
 
 struct SimilarIndex::Tree {
+  explicit Tree(const flann::Matrix<float>& points) : index(points, flann::KDTreeSingleIndexParams(10, false)) { index.buildIndex(); }
   flann::KDTreeSingleIndex<flann::L2<float>> index;
 };
 
 SimilarIndex::SimilarIndex(std::vector<Descriptor> descriptors) : descriptors_(std::move(descriptors)) {
   if (descriptors_.empty()) return;
-  const flann::Matrix<float> points(descriptors_.front().data(), descriptors_.size(), descriptor_size);
-  tree_ = std::make_unique<Tree>(Tree{{points, flann::KDTreeSingleIndexParams(10, false)}});
-  tree_->index.buildIndex();
+  tree_ = std::make_unique<Tree>(flann::Matrix<float>(descriptors_.front().data(), descriptors_.size(), descriptor_size));
 }
 
 SimilarIndex::~SimilarIndex() = default;

@@ -3,6 +3,8 @@
 
 #include "shared/content_hash.h"
 
+#include <brdf/error.h>
+
 #include <algorithm>
 
 namespace brdf::service {
