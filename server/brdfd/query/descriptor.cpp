@@ -19,6 +19,16 @@ Pair pair_at(double theta_h, double theta_d) noexcept {
   return {Vec3f(Vec3d(sh * cd, sd, ch * cd)), Vec3f(Vec3d(sh * cd, -sd, ch * cd))};
 }
 
+/// Ends of the bands of theta_h that the angles stand for, degrees.
+constexpr std::array<double, descriptor_theta_h.size() + 1> band_ends{0, 1, 3.5, 7.5, 15, 27.5, 45, 90};
+
+/// Root of the share of all half vectors that a band has, as of the pixels of a sphere under a distant light; their mean
+/// square is 1. Without it the few degrees of a highlight outweigh the colour of everything else.
+double weight(std::size_t band, double degree) noexcept {
+  const double share = std::cos(band_ends[band] * degree) - std::cos(band_ends[band + 1] * degree);
+  return std::sqrt(share * static_cast<double>(descriptor_theta_h.size()));
+}
+
 }  // namespace
 
 std::array<double, 3> descriptor_color(const Channels& channels, std::span<const float> f) {
@@ -51,12 +61,12 @@ Descriptor describe(const Material& material) {
   std::vector<float> f(static_cast<std::size_t>(material.channels()));
   std::size_t next = 0;
   for (const double theta_d : descriptor_theta_d) {
-    for (const double theta_h : descriptor_theta_h) {
-      const Pair p = pair_at(theta_h * degree, theta_d * degree);
+    for (std::size_t band = 0; band < descriptor_theta_h.size(); ++band) {
+      const Pair p = pair_at(descriptor_theta_h[band] * degree, theta_d * degree);
       material.eval(p.wi, p.wo, f);
       for (const double value : descriptor_color(material.info().channels, f)) {
         const double x = std::max(value * static_cast<double>(p.wi.z), 0.0);
-        d[next++] = static_cast<float>(std::cbrt(x / (1 + x / 8)));
+        d[next++] = static_cast<float>(weight(band, degree) * std::cbrt(x / (1 + x / 8)));
       }
     }
   }

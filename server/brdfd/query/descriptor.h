@@ -17,7 +17,7 @@ inline constexpr std::array<double, 3> descriptor_theta_d{5, 35, 65};
 inline constexpr std::size_t descriptor_size = descriptor_theta_h.size() * descriptor_theta_d.size() * 3;
 
 /// Of x = f cos_i in red, green and blue, the cube root of x / (1 + x/8): lightness as CIE L* has it, with highlights
-/// rolled off as a picture does. XYZ becomes linear sRGB, a spectrum three bands (below 500, 500 to 600, above 600 nm), one
+/// rolled off as a picture does; times the root of the share of half vectors that its angle stands for. XYZ becomes linear sRGB, a spectrum three bands (below 500, 500 to 600, above 600 nm), one
 /// channel three equal ones.
 using Descriptor = std::array<float, descriptor_size>;
 

@@ -16,15 +16,19 @@ const RecordedError* MaterialVersion::error(int refinements, EvalLevel level) co
   return found == info.errors.end() ? nullptr : &*found;
 }
 
-int MaterialVersion::refinements_of(std::uint64_t prefix_bytes) const {
-  if (prefix_bytes == 0 || prefix_bytes >= bytes.size()) return static_cast<int>(boundaries.size()) - 1;
-  const auto found = std::find(boundaries.begin(), boundaries.end(), prefix_bytes);
-  if (found == boundaries.end()) {
+std::uint64_t MaterialVersion::cut_at(std::uint64_t prefix_bytes) const {
+  if (prefix_bytes == 0 || prefix_bytes >= bytes.size()) return bytes.size();
+  if (std::find(boundaries.begin(), boundaries.end(), prefix_bytes) == boundaries.end()) {
     std::string allowed;
     for (const std::uint64_t end : boundaries) allowed += (allowed.empty() ? "" : ", ") + std::to_string(end);
     throw Error(ErrorCode::invalid_argument, "prefix_bytes is " + std::to_string(prefix_bytes) + ", but refinements of " + id + " end at " + allowed);
   }
-  return static_cast<int>(found - boundaries.begin());
+  return prefix_bytes;
+}
+
+int MaterialVersion::refinements_in(std::uint64_t prefix_bytes) const noexcept {
+  const auto within = std::count_if(boundaries.begin(), boundaries.end(), [prefix_bytes](std::uint64_t end) { return end <= prefix_bytes; });
+  return std::max(static_cast<int>(within) - 1, 0);
 }
 
 VersionHandle verify_version(std::string id, std::vector<std::byte> bytes) {

@@ -24,8 +24,11 @@ struct MaterialVersion {
 
   /// Recorded error of the prefix of `refinements` at `level`; null where the file has none.
   const RecordedError* error(int refinements, EvalLevel level) const noexcept;
-  /// Refinements within the first `prefix_bytes` (0: all). Throws Error(invalid_argument) where they end at no boundary.
-  int refinements_of(std::uint64_t prefix_bytes) const;
+  /// Bytes of the prefix that is asked for; 0 and more than the file has are all of it. Throws Error(invalid_argument) for one
+  /// that ends at no boundary.
+  std::uint64_t cut_at(std::uint64_t prefix_bytes) const;
+  /// Refinements that a prefix of so many bytes holds whole.
+  int refinements_in(std::uint64_t prefix_bytes) const noexcept;
 };
 
 using VersionHandle = std::shared_ptr<const MaterialVersion>;

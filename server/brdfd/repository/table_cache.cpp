@@ -6,21 +6,19 @@
 namespace brdf::service {
 namespace {
 
-Material build(const MaterialVersion& version, EvalLevel level, int refinements, bool sampling, const DecodeLimits& limits) {
+Material build(const MaterialVersion& version, EvalLevel level, std::uint64_t bytes, bool sampling, const DecodeLimits& limits) {
   DecodeOptions options;
   options.limits = limits;
   options.level = level;
   options.sampling = sampling;
-  options.allow_prefix = true;
-  const std::uint64_t end = version.boundaries[static_cast<std::size_t>(refinements)];
-  const bool whole = static_cast<std::size_t>(refinements) + 1 == version.boundaries.size();
-  return Material::decode(std::span(version.bytes).first(whole ? version.bytes.size() : static_cast<std::size_t>(end)), options);
+  options.allow_prefix = bytes < version.bytes.size();
+  return Material::decode(std::span(version.bytes).first(static_cast<std::size_t>(bytes)), options);
 }
 
 }  // namespace
 
-Material TableCache::get(const VersionHandle& version, EvalLevel level, int refinements, bool sampling) {
-  const Key key{version->version, level, refinements, sampling};
+Material TableCache::get(const VersionHandle& version, EvalLevel level, std::uint64_t bytes, bool sampling) {
+  const Key key{version->version, level, bytes, sampling};
   std::unique_lock lock(mutex_);
   for (;;) {
     const auto [at, is_new] = entries_.try_emplace(key);
@@ -34,7 +32,7 @@ Material TableCache::get(const VersionHandle& version, EvalLevel level, int refi
   lock.unlock();
   std::optional<Material> material;
   try {
-    material = build(*version, level, refinements, sampling, limits_);
+    material = build(*version, level, bytes, sampling, limits_);
   } catch (...) {
     lock.lock();
     entries_.erase(key);

@@ -19,8 +19,8 @@ class TableCache {
  public:
   explicit TableCache(std::uint64_t budget_bytes, DecodeLimits limits = {}) : budget_(budget_bytes), limits_(limits) {}
 
-  /// The material prepared so. Of several that ask for the same at once, one builds and the others wait. Throws Error.
-  Material get(const VersionHandle& version, EvalLevel level, int refinements, bool sampling);
+  /// The material of the first `bytes` bytes (MaterialVersion::cut_at), prepared so. Of several that ask for the same at once, one builds and the others wait. Throws Error.
+  Material get(const VersionHandle& version, EvalLevel level, std::uint64_t bytes, bool sampling);
 
   std::uint64_t bytes() const;
   std::uint64_t budget() const noexcept { return budget_; }
@@ -28,7 +28,7 @@ class TableCache {
   std::uint64_t dropped() const;  ///< since the start
 
  private:
-  using Key = std::tuple<std::string, EvalLevel, int, bool>;  // version: two names of one content share
+  using Key = std::tuple<std::string, EvalLevel, std::uint64_t, bool>;  // version: two names of one content share
   struct Entry {
     std::optional<Material> material;  ///< nothing while it is built
     std::uint64_t bytes = 0;

@@ -18,11 +18,11 @@ void name_version(Response& response, const MaterialVersion& version, int refine
 PlannedCall plan_evaluate(Serving& serving, const v1::EvaluateRequest& request, v1::EvaluateResponse& response) {
   const BatchPlan plan = plan_batch(request, serving.limits);
   VersionHandle version = find_version(*serving.repository.catalogue(), request.material());
-  const int refinements = version->refinements_of(request.prefix_bytes());
+  const std::uint64_t bytes = version->cut_at(request.prefix_bytes());
   answer_bytes(plan, request.count(), version->info.channels.count, serving.limits);
-  return {plan.cost, [&serving, &request, &response, plan, version = std::move(version), refinements](const Call& call) {
-            const Material material = serving.tables.get(version, plan.level, refinements, plan.sampling());
-            name_version(response, *version, refinements, plan.level);
+  return {plan.cost, [&serving, &request, &response, plan, version = std::move(version), bytes](const Call& call) {
+            const Material material = serving.tables.get(version, plan.level, bytes, plan.sampling());
+            name_version(response, *version, version->refinements_in(bytes), plan.level);
             if (!answer_batch(material, plan, request, response, [&call] { return call.is_over(); })) return false;
             const std::uint64_t n = request.count();
             serving.metrics.count_queries(plan.evaluate ? n : 0, plan.pdf ? n : 0, plan.sample ? n : 0);
@@ -34,10 +34,10 @@ PlannedCall plan_albedo_call(Serving& serving, const v1::AlbedoRequest& request,
   const std::uint64_t cost = plan_albedo(request, serving.limits);
   const EvalLevel level = level_of(request.level());
   VersionHandle version = find_version(*serving.repository.catalogue(), request.material());
-  const int refinements = version->refinements_of(request.prefix_bytes());
-  return {cost, [&serving, &request, &response, cost, level, version = std::move(version), refinements](const Call& call) {
-            const Material material = serving.tables.get(version, level, refinements, true);
-            name_version(response, *version, refinements, level);
+  const std::uint64_t bytes = version->cut_at(request.prefix_bytes());
+  return {cost, [&serving, &request, &response, cost, level, version = std::move(version), bytes](const Call& call) {
+            const Material material = serving.tables.get(version, level, bytes, true);
+            name_version(response, *version, version->refinements_in(bytes), level);
             if (!answer_albedo(material, request, response, [&call] { return call.is_over(); })) return false;
             serving.metrics.count_queries(0, 0, cost);
             return true;

@@ -53,7 +53,7 @@ class Download : public grpc::ServerWriteReactor<v1::DownloadMaterialResponse> {
       header.set_prefix_bytes(end_);
       const Sha256 digest = sha256(std::span(version_->bytes).first(static_cast<std::size_t>(end_)));
       header.set_sha256(digest.data(), digest.size());
-      if (const RecordedError* e = version_->error(version_->refinements_of(end_), EvalLevel::balanced)) fill(*header.mutable_error(), *e);
+      if (const RecordedError* e = version_->error(version_->refinements_in(end_), EvalLevel::balanced)) fill(*header.mutable_error(), *e);
       call_.serving().metrics.count_bytes_downloaded(end_ - at_);
     } catch (...) {
       return finish(call_.status_of_exception());
@@ -83,17 +83,17 @@ class Download : public grpc::ServerWriteReactor<v1::DownloadMaterialResponse> {
 
 std::uint64_t download_end(const MaterialVersion& version, const v1::DownloadMaterialRequest& request) {
   const auto& ends = version.boundaries;
-  const auto end_of = [&](std::size_t refinement) { return refinement + 1 == ends.size() ? version.bytes.size() : ends[refinement]; };
   if (request.has_max_bytes()) {
+    if (version.bytes.size() <= request.max_bytes()) return version.bytes.size();
     for (std::size_t i = ends.size(); i-- > 0;)
-      if (end_of(i) <= request.max_bytes()) return end_of(i);
-    throw Error(ErrorCode::invalid_argument, "max_bytes is " + std::to_string(request.max_bytes()) + ", the smallest prefix of " + version.id + " has " + std::to_string(end_of(0)));
+      if (ends[i] <= request.max_bytes()) return ends[i];
+    throw Error(ErrorCode::invalid_argument, "max_bytes is " + std::to_string(request.max_bytes()) + ", the smallest prefix of " + version.id + " has " + std::to_string(ends.front()));
   }
   if (request.has_max_log_mae()) {
     if (!(request.max_log_mae() >= 0) || !std::isfinite(request.max_log_mae())) throw Error(ErrorCode::invalid_argument, "max_log_mae must be a number of at least 0");
     for (std::size_t i = 0; i < ends.size(); ++i) {
       const RecordedError* e = version.error(static_cast<int>(i), EvalLevel::balanced);
-      if (e != nullptr && e->log_mae <= request.max_log_mae()) return end_of(i);
+      if (e != nullptr && e->log_mae <= request.max_log_mae()) return ends[i];
     }
   }
   return version.bytes.size();

@@ -39,7 +39,7 @@ void add_settings(CLI::App& app, Options& o) {
       if (std::holds_alternative<TextList Settings::*>(s.field) && !given.empty()) given += ',';
       std::holds_alternative<TextList Settings::*>(s.field) ? given += value : given = value;
     });
-    if (std::holds_alternative<TextList Settings::*>(s.field)) option->multi_option_policy(CLI::MultiOptionPolicy::TakeLast)->expected(1, -1)->take_last();
+    option->take_last();  // of `text`, which nobody reads; flags has what each occurrence adds
   }
 }
 
