@@ -26,7 +26,7 @@ def scene():
         },
         "shapes": [
             {"type": "sphere", "centre": [0, 1, 0], "radius": 0.9, "material": "ball"},
-            {"type": "sphere", "centre": [4, 1, -25], "radius": 0.3, "material": "far"},
+            {"type": "sphere", "centre": [8, 1, -25], "radius": 0.5, "material": "far"},
             {"type": "sphere", "centre": [0, 1, 40], "radius": 0.3, "material": "hidden"},
             {"type": "quad", "material": "floor", "corner": [-20, 0, 20], "edge_u": [40, 0, 0], "edge_v": [0, 0, -40]},
         ],

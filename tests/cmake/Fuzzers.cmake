@@ -3,6 +3,9 @@
 # files are real fuzzers that also search for BRDF_FUZZ_SECONDS.
 file(GLOB sources CONFIGURE_DEPENDS "${CMAKE_CURRENT_SOURCE_DIR}/fuzz/*.cpp")
 list(FILTER sources EXCLUDE REGEX "/replay_main\\.cpp$")
+if(NOT TARGET brdf_daemon)
+  list(FILTER sources EXCLUDE REGEX "/requests\\.cpp$")
+endif()
 
 if(BRDF_BUILD_FUZZERS)
   # Comparisons of numbers tell a fuzzer nothing about what to write into a table, and reporting them to it takes half of the
@@ -43,3 +46,6 @@ foreach(source IN LISTS sources)
     endif()
   endif()
 endforeach()
+if(TARGET fuzz_requests)
+  target_link_libraries(fuzz_requests PRIVATE brdf_daemon)
+endif()

@@ -19,6 +19,16 @@ if(TARGET brdf-compress)
   endforeach()
 endif()
 
+if(TARGET brdfd AND TARGET brdf-query AND TARGET brdf-gonio)
+  file(GLOB scripts CONFIGURE_DEPENDS "${CMAKE_CURRENT_SOURCE_DIR}/server/*_script.py")
+  foreach(script IN LISTS scripts)
+    cmake_path(GET script STEM name)
+    add_test(NAME server.${name} COMMAND "${Python3_EXECUTABLE}" "${script}")
+    set_tests_properties(server.${name} PROPERTIES LABELS server SKIP_RETURN_CODE 77
+      ENVIRONMENT "${test_environment};PYTHONPATH=${CMAKE_CURRENT_SOURCE_DIR};PYTHONDONTWRITEBYTECODE=1")
+  endforeach()
+endif()
+
 if(TARGET brdf-compress AND TARGET brdf-gonio)
   add_test(NAME bench.baseline COMMAND "${Python3_EXECUTABLE}" "${CMAKE_CURRENT_SOURCE_DIR}/bench/baseline.py")
   set_tests_properties(bench.baseline PROPERTIES LABELS bench RUN_SERIAL TRUE ENVIRONMENT "${test_environment}")

@@ -45,8 +45,6 @@ void measure_trades(std::vector<PlanSlot>& slots, const TradeSettings& settings,
     slot.points = measure_trade(slot.measurement, options, [&](std::string_view, double done) {
       return !progress || progress(slot.name, (static_cast<double>(i) + done) / static_cast<double>(slots.size()));
     });
-    // a prefix is no file of its own
-    std::erase_if(slot.points, [](const TradePoint& p) { return p.bytes != p.file->size(); });
   }
 }
 

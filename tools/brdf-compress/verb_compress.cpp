@@ -4,6 +4,7 @@
 #include "output_file.h"
 #include "profile_input.h"
 #include "progress_bar.h"
+#include "progress_lines.h"
 #include "standard_output.h"
 #include "verb_options.h"
 #include "verbs.h"
@@ -22,6 +23,7 @@ struct Options {
   EncodeOptions encode;
   std::string profile, profile_material;
   int threads = 0;
+  int progress_descriptor = -1;
   SamplePosition position = SamplePosition::edge;
   bool force = false;
   Reporting reporting;
@@ -80,7 +82,7 @@ ExitCode run(const Options& o) {
   EncodeResult result;
   {
     ProgressBar bar(o.reporting);
-    result = compress(m, options, bar.callback());
+    result = compress(m, options, o.progress_descriptor < 0 ? bar.callback() : progress_lines(o.progress_descriptor));
   }
   write_output(o.output, result.bytes, o.force);
   const CompressReport report{o.input, o.output, m, options, result.summary};
@@ -142,6 +144,9 @@ Verb add_compress(CLI::App& program) {
       ->type_name("SLOT")
       ->needs(profile);
   add_threads(*verb, o->threads);
+  verb->add_option("--progress-descriptor", o->progress_descriptor, "Write lines 'SHARE STAGE' to this open file descriptor")
+      ->type_name("N")
+      ->check(CLI::Range(1, 1023));
   add_reporting(*verb, o->reporting);
   verb->footer(
       preset_help() +

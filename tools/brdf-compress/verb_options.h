@@ -4,7 +4,7 @@
 
 #include "material_source.h"
 #include "options.h"
-#include "row_format.h"
+#include "row_options.h"
 
 #include <CLI/CLI.hpp>
 
@@ -13,10 +13,7 @@
 
 namespace brdf::cli {
 
-void add_eval_level(CLI::App& verb, EvalLevel& level);
-void add_prefix(CLI::App& verb, std::optional<std::uint64_t>& prefix);
 void add_position(CLI::App& verb, SamplePosition& position);
-void add_row_format(CLI::App& verb, RowFormat& format);
 /// Names of the presets, and the help lines "name  effort  purpose".
 std::vector<std::string> preset_names();
 std::string preset_help();

@@ -1,14 +1,13 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "counter_random.h"
 #include "direction_planes.h"
+#include "direction_text.h"
 #include "row_writer.h"
 #include "sampling_density.h"
 #include "verb_options.h"
 #include "verbs.h"
 
 #include <algorithm>
-#include <charconv>
-#include <cmath>
 #include <memory>
 
 namespace brdf::cli {
@@ -23,25 +22,6 @@ struct Options {
   std::uint64_t count = 0, seed = 0;
 };
 
-/// "X,Y,Z" as a unit vector.
-Vec3f parse_direction(const std::string& text) {
-  const auto refuse = [&](const std::string& why) -> CLI::ValidationError {
-    return CLI::ValidationError("--wo", "is '" + text + "', " + why);
-  };
-  Vec3d w{0, 0, 0};
-  const char *at = text.data(), *end = at + text.size();
-  for (glm::length_t k = 0; k < 3; ++k) {
-    const auto [rest, error] = std::from_chars(at, end, w[k]);
-    const bool separated = k == 2 ? rest == end : rest != end && *rest == ',';
-    if (error != std::errc{} || !separated) throw refuse("wanted are three numbers X,Y,Z");
-    at = rest + 1;
-  }
-  const double length = std::sqrt(w.x * w.x + w.y * w.y + w.z * w.z);
-  if (!(std::abs(length - 1) <= 1e-3)) throw refuse("its length must be 1 within 0.001");
-  // A direction that is as near to unit as floats can be is kept to the last bit.
-  return std::abs(length - 1) < 2e-7 ? Vec3f(w) : Vec3f(w / length);
-}
-
 /// Draws rows `first` to `first + n`: wi.xyz, pdf, weight of each channel.
 class RowSampler {
  public:
@@ -49,7 +29,7 @@ class RowSampler {
       : source_(source),
         density_(sampling_density(source)),
         random_(o.seed),
-        view_(parse_direction(o.wo)),
+        view_(parse_direction("--wo", o.wo)),
         channels_(static_cast<std::size_t>(source.channels().count)) {}
 
   std::size_t columns() const noexcept { return 4 + channels_; }
@@ -100,7 +80,7 @@ class RowSampler {
 };
 
 ExitCode run(const Options& o) {
-  parse_direction(o.wo);  // before any work
+  parse_direction("--wo", o.wo);  // before any work
   const MaterialSource source = MaterialSource::open(o.material, o.source);
   RowSampler sampler(source, o);
   RowWriter out(o.format, sampler.columns());

@@ -18,18 +18,18 @@
 
 namespace brdf {
 
-/// What a file, or the part of it that is read, consists of.
+/// What a file consists of.
 enum class Representation : std::uint8_t { single_lobe, lobes, half_difference, slices };
 const char* to_string(Representation r) noexcept;
 
-/// One way to hold a material: a file, how much of it is read, and at which level it is evaluated.
+/// One way to hold a material: a file, and at which level it is evaluated.
 struct TradePoint {
-  std::shared_ptr<const std::vector<std::byte>> file;  ///< whole
-  std::uint64_t bytes = 0;            ///< of the prefix that is read; the file's size for all of it
+  std::shared_ptr<const std::vector<std::byte>> file;
+  std::uint64_t bytes = 0;            ///< of the file
   EvalLevel level = EvalLevel::fast;
   Representation representation = Representation::lobes;
-  int lobes = 0, refinements = 0;     ///< in the prefix
-  ProfileError error;                 ///< of the decoded prefix at `level`
+  int lobes = 0, refinements = 0;
+  ProfileError error;                 ///< of the decoded file at `level`
   double nanoseconds = 0;             ///< of one evaluation, as TradeOptions::nanoseconds found it; NaN without one
   std::uint64_t resident_bytes = 0;   ///< tables that evaluation touches
 };
@@ -44,8 +44,8 @@ struct TradeOptions {
   std::function<double(const Material&)> nanoseconds;
 };
 
-/// Makes files of several sizes, reads every prefix of each at every level that differs, and measures what a decoder makes of
-/// it. By ascending bytes; a point that another one beats or equals in bytes, error and time is left out. Throws like compress;
+/// Makes files of several sizes, cuts each after every refinement to a file of its own, and measures what a decoder makes of
+/// them at every level that differs. By ascending bytes; a point that another one beats or equals in bytes, error and time is left out. Throws like compress;
 /// invalid_argument without a profile. Deterministic but for `nanoseconds`.
 std::vector<TradePoint> measure_trade(const Measurement& m, const TradeOptions& options, const Progress& progress = {});
 

@@ -33,14 +33,13 @@ class Measure {
       : options_(options), reference_(m), comparison_(reference_rows(m), m.channels.count, *options.encode.profile) {}
 
   void add(const File& file, std::vector<TradePoint>& points) {
+    const container::Content whole = container::unpack(*file, {}, false).content;
     for (const std::uint64_t end : refinement_boundaries(*file)) {
-      // all of it includes what follows the last layer
-      const bool whole = end == refinement_boundaries(*file).back();
-      const std::span<const std::byte> prefix = std::span(*file).first(whole ? file->size() : end);
-      const container::Content content = container::unpack(prefix, {}, true).content;
+      container::Content content = container::unpack(std::span(*file).first(end), {}, true).content;
+      content.purpose = whole.purpose;
       for (const EvalLevel level : {EvalLevel::fast, EvalLevel::balanced, EvalLevel::exact}) {
         if ((level == EvalLevel::fast) != content.residual.empty()) continue;  // lobes alone are the same at every level
-        points.push_back(point(file, prefix, content, level));
+        points.push_back(point(content, level));
       }
     }
   }
@@ -56,20 +55,24 @@ class Measure {
     };
   }
 
-  TradePoint point(const File& file, std::span<const std::byte> prefix, const container::Content& content, EvalLevel level) {
+  TradePoint point(container::Content content, EvalLevel level) {
     DecodeOptions decode;
     decode.level = level;
-    decode.allow_prefix = true;
     decode.sampling = false;
-    const Material material = Material::decode(prefix, decode);
+    const Material material = Material::decode(container::pack(content), decode);
     TradePoint p;
-    p.file = file;
-    p.bytes = prefix.size();
     p.level = level;
     p.representation = representation_of(content);
     p.lobes = static_cast<int>(content.lobes.lobes.size());
     p.refinements = static_cast<int>(content.residual.layers.size());
     p.error = comparison_.score(rows_of(material));
+    if (content.purpose) {
+      content.purpose->level = level;
+      content.purpose->rms = p.error.rms;
+      content.purpose->log_error = p.error.log_error;
+    }
+    p.file = std::make_shared<const std::vector<std::byte>>(container::pack(content));
+    p.bytes = p.file->size();
     p.resident_bytes = material.resident_bytes();
     const auto [known, fresh] = times_.try_emplace({level, p.representation, p.lobes, p.resident_bytes}, std::numeric_limits<double>::quiet_NaN());
     if (fresh && options_.nanoseconds) known->second = options_.nanoseconds(material);

@@ -1,0 +1,89 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "rpc/call.h"
+
+#include "config/log.h"
+#include "shared/error_table.h"
+#include "shared/material_name.h"
+
+#include <new>
+
+namespace brdf::service {
+namespace {
+
+constexpr std::string_view bearer = "Bearer ";
+constexpr std::size_t longest_token = 4096;
+
+/// Of a name from outside, what a message needs.
+std::string excerpt(const std::string& text) { return "'" + text.substr(0, 160) + (text.size() > 160 ? "...'" : "'"); }
+
+}  // namespace
+
+void Call::require(Role role) const {
+  const auto tokens = serving_.access.get();
+  if (!tokens) return;
+  const auto& metadata = context_->client_metadata();
+  const auto [first, last] = metadata.equal_range("authorization");
+  std::optional<Role> given;
+  if (first != last && std::next(first) == last) {  // two are one too many to choose from
+    const std::string_view value(first->second.data(), first->second.size());
+    if (value.starts_with(bearer) && value.size() <= longest_token) given = tokens->role_of(value.substr(bearer.size()));
+  }
+  if (!given) {
+    serving_.metrics.count_refused("token");
+    throw StatusError(grpc::StatusCode::UNAUTHENTICATED, "this server wants 'authorization: Bearer TOKEN' with a token that it knows");
+  }
+  if (*given < role) {
+    serving_.metrics.count_refused("token");
+    throw StatusError(grpc::StatusCode::PERMISSION_DENIED, std::string("this call needs the role ") + to_string(role) + ", the token has " + to_string(*given));
+  }
+}
+
+void Call::overloaded(const char* reason, const std::string& sentence, std::chrono::milliseconds retry) const {
+  serving_.metrics.count_refused(reason);
+  context_->AddTrailingMetadata("grpc-retry-pushback-ms", std::to_string(retry.count()));
+  throw StatusError(grpc::StatusCode::RESOURCE_EXHAUSTED, sentence);
+}
+
+bool Call::is_over() const { return context_->IsCancelled() || context_->deadline() <= std::chrono::system_clock::now(); }
+
+grpc::Status Call::over() const {
+  if (context_->deadline() <= std::chrono::system_clock::now()) return {grpc::StatusCode::DEADLINE_EXCEEDED, "the deadline came before the answer"};
+  return {grpc::StatusCode::CANCELLED, "the call was cancelled"};
+}
+
+grpc::Status Call::status_of_exception() const {
+  try {
+    throw;
+  } catch (const StatusError& e) {
+    return {e.code(), e.what()};
+  } catch (const Error& e) {
+    context_->AddTrailingMetadata(error_metadata_key, to_string(e.code()));
+    return {status_of(e.code()), e.what()};
+  } catch (const std::bad_alloc&) {
+    return {grpc::StatusCode::RESOURCE_EXHAUSTED, "the server is out of memory"};
+  } catch (const std::exception& e) {
+    log_event(Severity::error, "call.failed", {{"method", to_string(method_)}, {"reason", e.what()}});
+    return {grpc::StatusCode::INTERNAL, "the server failed"};
+  }
+}
+
+void Call::count(const grpc::Status& status) const {
+  const std::chrono::duration<double> took = std::chrono::steady_clock::now() - start_;
+  serving_.metrics.count_call(method_, status.error_code(), took);
+  if (!status.ok()) {
+    log_event(Severity::debug, "call.refused", {{"method", to_string(method_)}, {"status", std::to_string(status.error_code())}, {"reason", status.error_message()}});
+  }
+}
+
+VersionHandle find_version(const Catalogue& catalogue, const std::string& name) {
+  const auto parsed = parse_material_name(name);
+  if (!parsed) throw Error(ErrorCode::invalid_argument, excerpt(name) + " is no name of a material, wanted is materials/{material} or materials/{material}/versions/{version}");
+  VersionHandle found = catalogue.find(parsed->id);
+  if (!found) throw StatusError(grpc::StatusCode::NOT_FOUND, "there is no material " + excerpt(name));
+  if (!parsed->version.empty() && found->version != parsed->version) {
+    throw StatusError(grpc::StatusCode::NOT_FOUND, material_name(parsed->id) + " is served as version " + found->version + ", not as " + parsed->version);
+  }
+  return found;
+}
+
+}  // namespace brdf::service

@@ -1,0 +1,57 @@
+// SPDX-License-Identifier: Apache-2.0
+// What every call has: a role that it needs, a status that the exception of its work becomes, figures.
+#pragma once
+
+#include "rpc/serving.h"
+
+#include <grpcpp/server_context.h>
+
+#include <chrono>
+#include <exception>
+#include <stdexcept>
+
+namespace brdf::service {
+
+/// Ends a call with a status that no error of the library stands for.
+class StatusError : public std::runtime_error {
+ public:
+  StatusError(grpc::StatusCode code, const std::string& sentence) : std::runtime_error(sentence), code_(code) {}
+  grpc::StatusCode code() const noexcept { return code_; }
+
+ private:
+  grpc::StatusCode code_;
+};
+
+class Call {
+ public:
+  Call(Serving& serving, Method method, grpc::CallbackServerContext* context)
+      : serving_(serving), context_(context), method_(method), start_(std::chrono::steady_clock::now()) {}
+
+  Serving& serving() const noexcept { return serving_; }
+
+  /// Throws StatusError(UNAUTHENTICATED, PERMISSION_DENIED).
+  void require(Role role) const;
+  /// Throws StatusError(RESOURCE_EXHAUSTED) after telling the client when to come back.
+  [[noreturn]] void overloaded(const char* reason, const std::string& sentence, std::chrono::milliseconds retry) const;
+
+  /// Nobody waits any more: cancelled, or the deadline is over.
+  bool is_over() const;
+  grpc::Status over() const;
+  /// The status of the exception that is being handled; with the library's code in the trailing metadata. To be called
+  /// before Finish.
+  grpc::Status status_of_exception() const;
+
+  /// Counts the call; once.
+  void count(const grpc::Status& status) const;
+
+ private:
+  Serving& serving_;
+  grpc::CallbackServerContext* context_;
+  Method method_;
+  std::chrono::steady_clock::time_point start_;
+};
+
+/// The version that a resource name means now. Throws Error(invalid_argument), StatusError(NOT_FOUND).
+VersionHandle find_version(const Catalogue& catalogue, const std::string& name);
+
+}  // namespace brdf::service

@@ -1,0 +1,193 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "rpc/compress_call.h"
+
+#include "config/log.h"
+#include "rpc/material_message.h"
+#include "shared/material_name.h"
+
+#include <mutex>
+#include <optional>
+
+namespace brdf::service {
+namespace {
+
+class CompressCall : public grpc::ServerBidiReactor<v1::CompressRequest, v1::CompressResponse> {
+ public:
+  CompressCall(Serving& serving, grpc::CallbackServerContext* context) : call_(serving, Method::compress, context) {
+    const std::lock_guard lock(mutex_);
+    try {
+      call_.require(Role::compress);
+      if (!serving.compress) throw StatusError(grpc::StatusCode::UNIMPLEMENTED, "this server does not compress");
+      if (serving.compressions.load() >= serving.compressions.capacity()) refuse();
+      StartRead(&request_);
+    } catch (...) {
+      end(call_.status_of_exception());
+    }
+  }
+
+  void OnReadDone(bool ok) override {
+    const std::lock_guard lock(mutex_);
+    if (outcome_) return;
+    try {
+      Serving& serving = call_.serving();
+      if (ok) {
+        // One chunk of each call at a time, so the queue is bounded by the calls; a full one is an overloaded disk.
+        if (!serving.uploads.submit(1 + request_.ByteSizeLong(), [this] { store(); })) {
+          call_.overloaded("upload", "too many uploads are being stored", std::chrono::seconds(1));
+        }
+      } else {
+        if (call_.is_over()) return end(call_.over());
+        if (!job_) throw Error(ErrorCode::invalid_argument, "the options are missing, they come first");
+        if (!serving.compressions.submit(1, [this] { compress(); })) refuse();
+        say_progress("waiting", 0);
+      }
+    } catch (...) {
+      end(call_.status_of_exception());
+    }
+  }
+
+  void OnWriteDone(bool ok) override {
+    const std::lock_guard lock(mutex_);
+    writing_ = false;
+    if (!ok && !outcome_) stop_ = true;
+    write_next();
+  }
+
+  void OnDone() override {
+    { const std::lock_guard lock(mutex_); }
+    delete this;
+  }
+
+ private:
+  [[noreturn]] void refuse() {
+    Serving& s = call_.serving();
+    call_.overloaded("compress", std::to_string(s.compressions.load()) + " compressions run or wait, this server takes " + std::to_string(s.compressions.capacity()), s.compressions.expected_wait());
+  }
+
+  // On the thread of uploads.
+  void store() {
+    std::exception_ptr failed;
+    try {
+      if (request_.has_options()) {
+        if (job_) throw Error(ErrorCode::invalid_argument, "options came twice");
+        job_.emplace(*call_.serving().compress, request_.options());
+        options_ = request_.options();
+        check_place();
+      } else if (request_.has_chunk()) {
+        if (!job_) throw Error(ErrorCode::invalid_argument, "the options are missing, they come first");
+        job_->add(request_.chunk());
+      } else {
+        throw Error(ErrorCode::invalid_argument, "a message holds neither options nor a chunk");
+      }
+    } catch (...) {
+      failed = std::current_exception();
+    }
+    const std::lock_guard lock(mutex_);
+    if (failed) return fail(failed);
+    request_.Clear();
+    StartRead(&request_);
+  }
+
+  /// Before the upload and not only after the work.
+  void check_place() const {
+    const std::string id = parse_material_name(options_.name())->id;
+    if (!options_.overwrite() && call_.serving().repository.catalogue()->find(id)) {
+      throw StatusError(grpc::StatusCode::ALREADY_EXISTS, options_.name() + " exists already; overwrite replaces it");
+    }
+  }
+
+  // On a thread of compressions.
+  void compress() {
+    std::exception_ptr failed;
+    VersionHandle version;
+    try {
+      const auto stop = [this] { return call_.is_over() || call_.serving().ending || stop_; };
+      if (stop()) throw Error(ErrorCode::cancelled, "the compression was cancelled");
+      std::vector<std::byte> bytes = job_->run(
+          [this](const std::string& stage, double done) {
+            const std::lock_guard lock(mutex_);
+            say_progress(stage, done);
+          },
+          stop);
+      if (stop()) throw Error(ErrorCode::cancelled, "the compression was cancelled");
+      check_place();
+      version = call_.serving().repository.publish(parse_material_name(options_.name())->id, std::move(bytes), options_.overwrite());
+      log_event(Severity::info, "material.compressed", {{"material", version->id}, {"version", version->version}, {"bytes", std::to_string(version->bytes.size())}});
+    } catch (...) {
+      failed = std::current_exception();
+    }
+    job_.reset();
+    const std::lock_guard lock(mutex_);
+    if (failed) return fail(failed);
+    progress_.reset();
+    result_ = version;
+    outcome_ = grpc::Status::OK;
+    write_next();
+  }
+
+  // All below with the mutex held.
+
+  void say_progress(const std::string& stage, double done) {
+    progress_.emplace();
+    progress_->mutable_progress()->set_stage(stage);
+    progress_->mutable_progress()->set_done(done);
+    write_next();
+  }
+
+  /// A client that reads slowly gets the last progress, not all of it.
+  void write_next() {
+    if (writing_) return;
+    if (progress_) {
+      response_ = *progress_;
+      progress_.reset();
+    } else if (result_) {
+      response_.Clear();
+      fill(*response_.mutable_material(), *result_);
+      result_ = nullptr;
+    } else {
+      if (outcome_ && !finished_) {
+        finished_ = true;
+        call_.count(*outcome_);
+        Finish(*outcome_);
+      }
+      return;
+    }
+    writing_ = true;
+    StartWrite(&response_);
+  }
+
+  void fail(const std::exception_ptr& failed) {
+    try {
+      std::rethrow_exception(failed);
+    } catch (...) {
+      end(call_.status_of_exception());
+    }
+  }
+
+  void end(const grpc::Status& status) {
+    if (outcome_) return;
+    outcome_ = status;
+    progress_.reset();
+    write_next();
+  }
+
+  Call call_;
+  std::mutex mutex_;
+  v1::CompressRequest request_;
+  v1::CompressResponse response_;
+  v1::CompressOptions options_;
+  std::optional<CompressJob> job_;  ///< touched by one of reactor, upload thread and compression at a time
+  std::optional<v1::CompressResponse> progress_;
+  VersionHandle result_;
+  std::optional<grpc::Status> outcome_;
+  bool writing_ = false, finished_ = false;
+  std::atomic<bool> stop_{false};
+};
+
+}  // namespace
+
+grpc::ServerBidiReactor<v1::CompressRequest, v1::CompressResponse>* start_compress(Serving& serving, grpc::CallbackServerContext* context) {
+  return new CompressCall(serving, context);
+}
+
+}  // namespace brdf::service

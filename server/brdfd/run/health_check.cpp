@@ -1,0 +1,33 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "run/health_check.h"
+
+#include "base/file_io.h"
+#include "grpc/health/v1/health.grpc.pb.h"
+
+#include <grpcpp/create_channel.h>
+
+#include <cstdio>
+
+namespace brdf::service {
+
+int check_health(const std::string& address, const std::string& ca, std::chrono::milliseconds deadline) {
+  auto credentials = grpc::InsecureChannelCredentials();
+  if (!ca.empty()) {
+    const auto bytes = base::read_file(ca, std::uint64_t{1} << 20);
+    credentials = grpc::SslCredentials({std::string(reinterpret_cast<const char*>(bytes.data()), bytes.size()), "", ""});
+  }
+  const auto stub = grpc::health::v1::Health::NewStub(grpc::CreateChannel(address, credentials));
+  grpc::ClientContext context;
+  context.set_deadline(std::chrono::system_clock::now() + deadline);
+  grpc::health::v1::HealthCheckResponse response;
+  const grpc::Status status = stub->Check(&context, {}, &response);
+  if (!status.ok()) {
+    std::fprintf(stderr, "brdfd: %s: %s\n", address.c_str(), status.error_message().c_str());
+    return 1;
+  }
+  const std::string name = grpc::health::v1::HealthCheckResponse::ServingStatus_Name(response.status());
+  std::printf("%s\n", name.c_str());
+  return response.status() == grpc::health::v1::HealthCheckResponse::SERVING ? 0 : 1;
+}
+
+}  // namespace brdf::service
