@@ -15,7 +15,8 @@ add_test(NAME integration.optimisation_levels COMMAND "${Python3_EXECUTABLE}"
 add_test(NAME integration.minimal_build COMMAND bash "${CMAKE_CURRENT_SOURCE_DIR}/consumer/check_minimal_build.sh"
   "${PROJECT_SOURCE_DIR}" "${CMAKE_CXX_COMPILER}")
 
-foreach(name IN ITEMS consumer quickstart optimisation_levels minimal_build)
+set_tests_properties(integration.optimisation_levels PROPERTIES LABELS builds TIMEOUT 2400)
+foreach(name IN ITEMS consumer quickstart minimal_build)
   if(TEST integration.${name})
     set_tests_properties(integration.${name} PROPERTIES LABELS integration TIMEOUT 1200)
   endif()

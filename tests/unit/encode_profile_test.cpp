@@ -10,6 +10,7 @@
 
 #include <algorithm>
 #include <functional>
+#include <limits>
 
 namespace brdf {
 namespace {
@@ -187,6 +188,21 @@ TEST(Profile, TablesForSamplingAreLeftOutWhereNobodySamples) {
   EXPECT_GT(with.summary.cdf_bytes, 0U);
   EXPECT_TRUE(with.summary.left_out.empty());
   EXPECT_TRUE(Material::decode(with.bytes).info().fitted_for.has_value());
+}
+
+// A renderer fills the holes of a table with something; what it asked there must not count as black.
+TEST(Profile, WhatWasNotMeasuredDoesNotCount) {
+  const auto asked = profile_of(test::bumpy_measurement(), grazing);
+  const auto answer = [](float whole, float holes) -> BatchEval {
+    return [=](std::span<const Vec3f> wi, std::span<const Vec3f>, std::span<float> out) {
+      for (std::size_t i = 0; i < wi.size(); ++i) out[i] = wi[i].z < 0.3F ? holes : whole;
+    };
+  };
+  const float nothing = std::numeric_limits<float>::quiet_NaN();
+  const ProfileError whole = ProfileComparison(answer(1, nothing), 1, *asked).score(answer(1.25F, 1e9F));
+  EXPECT_NEAR(whole.rms, 0.25, 1e-6);
+  EXPECT_GT(ProfileComparison(answer(1, 0), 1, *asked).score(answer(1.25F, 1e9F)).rms, 1e6);
+  test::expect_error(ErrorCode::no_data, {"measured"}, [&] { ProfileComparison(answer(nothing, nothing), 1, *asked); });
 }
 
 TEST(Profile, WhatCannotBeDoneIsRefused) {

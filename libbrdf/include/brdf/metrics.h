@@ -91,13 +91,15 @@ class Comparison {
 /// contribution. Immutable after construction, thread-safe, cheap to copy.
 class ProfileComparison {
  public:
-  /// Throws Error(no_data) when no reflection above the horizon contributes.
+  /// Rows for which the reference answers NaN were not measured and do not count. Throws Error(no_data) when no reflection above
+  /// the horizon contributes, or none that was measured.
   ProfileComparison(const BatchEval& reference, int channels, const MaterialProfile& asked);
   ProfileError score(const BatchEval& candidate) const;
   std::size_t size() const noexcept;  ///< pairs of directions
 
  private:
   struct State;
+  static void leave_out_unmeasured(State& s);
   std::shared_ptr<const State> state_;
 };
 

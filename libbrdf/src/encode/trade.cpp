@@ -49,7 +49,7 @@ class Measure {
     return [this, n = static_cast<std::size_t>(m.channels.count)](std::span<const Vec3f> wi, std::span<const Vec3f> wo, std::span<float> out) {
       std::vector<double> f(n);
       for (std::size_t i = 0; i < wi.size(); ++i) {
-        reference_.eval(Vec3d(wi[i]), Vec3d(wo[i]), f);
+        if (!reference_.eval(Vec3d(wi[i]), Vec3d(wo[i]), f)) std::fill(f.begin(), f.end(), std::numeric_limits<double>::quiet_NaN());
         std::transform(f.begin(), f.end(), out.begin() + static_cast<std::ptrdiff_t>(i * n), [](double v) { return static_cast<float>(v); });
       }
     };

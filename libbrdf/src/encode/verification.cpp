@@ -5,18 +5,20 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 #include <vector>
 
 namespace brdf::encode {
 namespace {
 
-BatchEval reference_rows(const MeasurementInterpolator& reference, int channels) {
-  return [&reference, channels](std::span<const Vec3f> wi, std::span<const Vec3f> wo, std::span<float> out) {
+/// `unmeasured` where the measurement has no value.
+BatchEval reference_rows(const MeasurementInterpolator& reference, int channels, float unmeasured) {
+  return [&reference, channels, unmeasured](std::span<const Vec3f> wi, std::span<const Vec3f> wo, std::span<float> out) {
     const auto n = static_cast<std::size_t>(channels);
     std::vector<double> f(n);
     for (std::size_t i = 0; i < wi.size(); ++i) {
-      reference.eval(Vec3d(wi[i]), Vec3d(wo[i]), f);
-      for (std::size_t c = 0; c < n; ++c) out[i * n + c] = static_cast<float>(f[c]);
+      const bool measured = reference.eval(Vec3d(wi[i]), Vec3d(wo[i]), f);
+      for (std::size_t c = 0; c < n; ++c) out[i * n + c] = measured ? static_cast<float>(f[c]) : unmeasured;
     }
   };
 }
@@ -24,8 +26,8 @@ BatchEval reference_rows(const MeasurementInterpolator& reference, int channels)
 }  // namespace
 
 Verification::Verification(const Measurement& m, double quality, int threads, const MaterialProfile* asked)
-    : reference_(m), comparison_(reference_rows(reference_, m.channels.count), m.channels.count, quality, threads) {
-  if (asked != nullptr) asked_.emplace(reference_rows(reference_, m.channels.count), m.channels.count, *asked);
+    : reference_(m), comparison_(reference_rows(reference_, m.channels.count, 0), m.channels.count, quality, threads) {
+  if (asked != nullptr) asked_.emplace(reference_rows(reference_, m.channels.count, std::numeric_limits<float>::quiet_NaN()), m.channels.count, *asked);
 }
 
 ErrorReport Verification::score(const Material& material) const {

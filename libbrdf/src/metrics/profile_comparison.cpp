@@ -7,7 +7,9 @@
 
 #include <algorithm>
 #include <cmath>
+#include <span>
 #include <string>
+#include <vector>
 
 namespace brdf {
 namespace {
@@ -22,7 +24,7 @@ constexpr double log_offset = 0.01;       // of the mean f of the cell
 struct ProfileComparison::State {
   struct Cell {
     std::size_t first = 0, count = 0;  ///< rows
-    double share = 0;                  ///< of the contribution, of each row
+    double share = 0;                  ///< of the contribution, of each row once all is known
     double scale = 0;                  ///< mean f of the reference over rows and channels
   };
   int channels = 0;
@@ -31,13 +33,35 @@ struct ProfileComparison::State {
   std::vector<Cell> cells;
 };
 
+/// Closes the gaps of rows that are NaN in any channel.
+void ProfileComparison::leave_out_unmeasured(State& s) {
+  const auto n = static_cast<std::size_t>(s.channels);
+  std::size_t kept = 0;
+  for (State::Cell& c : s.cells) {
+    const std::size_t first = kept;
+    for (std::size_t row = c.first; row < c.first + c.count; ++row) {
+      const auto values = std::span(s.f).subspan(row * n, n);
+      if (std::any_of(values.begin(), values.end(), [](float v) { return std::isnan(v); })) continue;
+      s.wi[kept] = s.wi[row];
+      s.wo[kept] = s.wo[row];
+      std::copy(values.begin(), values.end(), s.f.begin() + static_cast<std::ptrdiff_t>(kept * n));
+      ++kept;
+    }
+    c.first = first;
+    c.count = kept - first;
+  }
+  s.wi.resize(kept);
+  s.wo.resize(kept);
+  s.f.resize(kept * n);
+  std::erase_if(s.cells, [](const State::Cell& c) { return c.count == 0; });
+}
+
 ProfileComparison::ProfileComparison(const BatchEval& reference, int channels, const MaterialProfile& asked) {
   if (channels < 1)
     throw Error(ErrorCode::invalid_argument, "comparison: channels is " + std::to_string(channels) + ", allowed is 1 or more");
   auto state = std::make_shared<State>();
   State& s = *state;
   s.channels = channels;
-  double total = 0;
   for (std::size_t cell = 0; cell < asked.histogram.size(); ++cell) {
     if (asked.histogram[cell] == 0) continue;
     State::Cell c{s.wi.size(), 0, 0, 0};
@@ -47,16 +71,20 @@ ProfileComparison::ProfileComparison(const BatchEval& reference, int channels, c
     });
     c.count = s.wi.size() - c.first;
     if (c.count == 0) continue;  // too close to the horizon
-    const auto contribution = static_cast<double>(asked.histogram[cell]);
-    total += contribution;
-    c.share = contribution / static_cast<double>(c.count);
+    c.share = static_cast<double>(asked.histogram[cell]);
     s.cells.push_back(c);
   }
   if (s.cells.empty()) throw Error(ErrorCode::no_data, "the profile asks nothing of this material: no reflection above the horizon contributes");
   const auto n = static_cast<std::size_t>(channels);
   s.f.resize(s.wi.size() * n);
   reference(s.wi, s.wo, s.f);
-  double mean = 0;
+  leave_out_unmeasured(s);
+  if (s.cells.empty()) throw Error(ErrorCode::no_data, "the profile asks nothing of this material that was measured");
+  double total = 0, mean = 0;
+  for (State::Cell& c : s.cells) {
+    total += c.share;
+    c.share /= static_cast<double>(c.count);
+  }
   for (State::Cell& c : s.cells) {
     c.share /= total;
     for (std::size_t i = c.first * n; i < (c.first + c.count) * n; ++i) c.scale += static_cast<double>(s.f[i]);
