@@ -76,8 +76,7 @@ class Plan(CliTest):
                                *[x for r in rows.values() for x in ("--candidate", f"{r['slot']}={r['file']},eval={r['level']}")]],
                               capture_output=True, text=True, timeout=300, check=False)
         self.assertEqual(done.returncode, 0, done.stderr)
-        found = json.loads(done.stdout)["rows"][0]["flip"]
-        found = found["value"] if isinstance(found, dict) else found
+        found = json.loads(done.stdout)["rows"][0]["figures"]["flip"]["value"]
         self.assertAlmostEqual(found, whole["flip"]["value"], delta=1e-6)
 
     def test_a_flip_target_is_met_by_the_picture(self):
