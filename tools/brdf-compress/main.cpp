@@ -3,16 +3,14 @@
 #include <brdf/version.h>
 
 #include "command_line.h"
-#include "messages.h"
+#include "parse_arguments.h"
 #include "run_program.h"
-#include "standard_output.h"
 #include "verbs.h"
 
 #include <CLI/CLI.hpp>
 
 #include <algorithm>
 #include <array>
-#include <sstream>
 #include <string>
 
 namespace {
@@ -23,13 +21,6 @@ using namespace brdf::cli;
 constexpr const char* exit_codes_help =
     "Exit codes: 0 ok, 1 failed, 2 usage, 3 bad input, 4 target not met, 5 some of a batch failed.\n"
     "stdout carries data, stderr messages. 'brdf-compress VERB --help' has examples.";
-
-ExitCode usage_error(const CLI::App& program, const std::string& sentence) {
-  const auto chosen = program.get_subcommands();
-  const std::string verb = chosen.empty() ? "" : chosen.front()->get_name() + " ";
-  complain(sentence + "; see brdf-compress " + verb + "--help");
-  return ExitCode::usage;
-}
 
 ExitCode run(int argc, char** argv) {
   CLI::App program{"Compresses measured BRDFs, and evaluates, samples, verifies and compares them.", "brdf-compress"};
@@ -52,17 +43,9 @@ ExitCode run(int argc, char** argv) {
                          add_plan(program),
 #endif
                          add_profile(program)};
-  try {
-    program.parse(argc, argv);
-    const auto chosen = std::find_if(verbs.begin(), verbs.end(), [](const Verb& v) { return v.app->parsed(); });
-    return chosen->run();
-  } catch (const CLI::ParseError& e) {
-    if (e.get_exit_code() != 0) return usage_error(program, e.what());
-    std::ostringstream text;  // --help or --version
-    program.exit(e, text, text);
-    print(text.str());
-    return ExitCode::ok;
-  }
+  return parse_and_run(program, {argv + 1, argv + argc}, [&verbs] {
+    return std::find_if(verbs.begin(), verbs.end(), [](const Verb& v) { return v.app->parsed(); })->run();
+  });
 }
 
 }  // namespace
