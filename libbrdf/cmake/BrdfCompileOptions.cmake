@@ -49,6 +49,16 @@ function(brdf_compile_options target)
     -ffp-contract=off)
 endfunction()
 
+# Of a program that is installed: found in bin/ of the build, and its libraries wherever the installed tree is moved to.
+function(brdf_program_options target)
+  brdf_compile_options(${target})
+  set_target_properties(${target} PROPERTIES RUNTIME_OUTPUT_DIRECTORY "${PROJECT_BINARY_DIR}/bin"
+    INSTALL_RPATH "$ORIGIN/../${CMAKE_INSTALL_LIBDIR}")
+  if(BRDF_INSTALL)
+    install(TARGETS ${target} RUNTIME DESTINATION "${CMAKE_INSTALL_BINDIR}")
+  endif()
+endfunction()
+
 # Headers that nearly every source of the target reads. A file still names all that it uses: the preset "minimal" and
 # whoever sets CMAKE_DISABLE_PRECOMPILE_HEADERS build without this.
 function(brdf_precompile target)

@@ -68,7 +68,7 @@ class Render(unittest.TestCase):
         self.assertEqual((row["width"], row["height"], row["spp"], row["seed"], row["threads"]), (24, 20, 3, 5, 2))
         self.assertTrue(row["complete"])
         self.assertEqual(row["paths"], 24 * 20 * 3)
-        for key in ("vertices", "rays", "ns_per_vertex", "rays_per_second", "mean_luminance", "seconds"):
+        for key in ("vertices", "rays", "ns_per_vertex", "rays_per_second", "mean_luminance", "seconds", "processor_seconds"):
             self.assertGreater(row[key], 0, key)
         self.assertEqual(row["materials"], [{"slot": "m", "source": "lambert", "bytes": 0}])
 
@@ -88,6 +88,41 @@ class Render(unittest.TestCase):
         self.assertEqual(rows["raw"]["materials"][0]["bytes"], measured().stat().st_size)
         self.assertEqual(rows["compressed"]["materials"][0]["bytes"], compressed().stat().st_size)
         self.assertAlmostEqual(rows["raw"]["mean_luminance"] / rows["compressed"]["mean_luminance"], 1, delta=0.05)
+
+    def test_exported_scene_is_the_same_picture(self):
+        parts = [
+            {"type": "sphere", "material": "file", "radius": 0.5, "transform": [{"scale": 2}, {"translate": [0, 0.2, 0]}]},
+            {"type": "blob", "material": "m", "segments": 12, "amplitude": 0.3, "flat": True, "transform": [{"translate": [1.2, 0, 0]}]},
+            {"type": "lathe", "material": "glass", "segments": 16, "profile": [[0, -1], [0.6, -0.4], [0, 1]]},
+            {"type": "quad", "material": "m", "corner": [-1, 2, -1], "edge_u": [2, 0, 0], "edge_v": [0, 0, 2], "emission": 3},
+        ]
+        original = scene("parts.json", shapes=parts, lights=[{"type": "directional", "direction": [0, -1, -1], "irradiance": 2}],
+                         environment={"type": "sky", "width": 32, "rotation": 90, "lamps": [{"direction": [1, 1, 0]}]},
+                         path={"max_depth": 5, "roulette_depth": 2},
+                         materials={"m": {"type": "ggx", "alpha": 0.3, "f0": [0.9, 0.5, 0.1]}, "glass": {"type": "dielectric", "ior": 1.4},
+                                    "file": {"type": "file", "file": compressed().name, "eval": "fast"},
+                                    "unused": {"type": "file", "file": "nowhere.binary"}})
+        target = folder() / "exported"
+        self.succeed("export", original, "-o", target)
+        described = json.loads((target / "scene.json").read_text(encoding="utf-8"))
+        self.assertEqual({s["type"] for s in described["shapes"]}, {"sphere", "ply"})
+        self.assertEqual(described["environment"]["type"], "map")
+        pictures = [self.out("original.exr"), self.out("exported.exr")]
+        for source, picture in zip((original, target / "scene.json"), pictures):
+            self.succeed(source, "-o", picture, "--spp", 16)
+        row = json.loads(self.succeed("difference", *pictures, "--json").stdout)["rows"][0]
+        self.assertLess(row["figures"]["max_difference"]["value"], 1e-4)
+        self.fail_with(1, "export", original, "-o", target, says="exists already")
+        self.succeed("export", original, "-o", target, "-f")
+        self.fail_with(2, "export", original, says="--output")
+        self.fail_with(2, "export", original, "-o", target, "-f", "--material", f"n={compressed()}", says="'n'")
+        self.fail_with(3, "export", scene("bad.json", shapes=[]), "-o", target, "-f", says="no shape")
+
+    def test_incident_direction(self):
+        original = scene("file.json", materials={"m": {"type": "file", "file": measured().name, "incident": "viewer"}})
+        self.succeed(original, "-o", self.out("i.exr"), "--spp", 1)
+        self.fail_with(2, original, "-o", self.out("i.exr"), "--material", f"m={compressed()},incident=viewer", says="measured files")
+        self.fail_with(2, original, "-o", self.out("i.exr"), "--material", f"m={measured()},incident=both", says="both")
 
     def test_bad_command_lines(self):
         out = self.out("never.exr")

@@ -4,6 +4,7 @@
 #include "container/chunk_types.h"
 #include "container/header.h"
 #include "golden/make_golden.h"
+#include "support/data_folders.h"
 #include "support/direct_basis.h"
 #include "support/small_measurement.h"
 
@@ -33,7 +34,7 @@ std::vector<std::byte> bytes_of(const std::string& text) {
 
 std::vector<fs::path> golden_files() {
   std::vector<fs::path> files;
-  for (const auto& entry : fs::directory_iterator(fs::path(BRDF_SOURCE_DIR) / "data" / "golden"))
+  for (const auto& entry : fs::directory_iterator(test::source_folder() / "data" / "golden"))
     if (entry.path().extension() == ".brdfc") files.push_back(entry.path());
   std::sort(files.begin(), files.end());
   return files;
@@ -118,7 +119,7 @@ TEST(Golden, PackingAgainGivesTheSameBytes) {
 
 TEST(Golden, FilesSayWhatTheySaid) {
   const auto info = [](const char* name) {
-    const auto file = fs::path(BRDF_SOURCE_DIR) / "data" / "golden" / (std::string(name) + ".brdfc");
+    const auto file = test::source_folder() / "data" / "golden" / (std::string(name) + ".brdfc");
     return Material::decode(bytes_of(read_text(file))).info();
   };
   const MaterialInfo layers = info("rgb-reciprocal-layers");

@@ -3,6 +3,7 @@
 #include "peers/neural_brdf.h"
 #include "peers/npz_file.h"
 
+#include "support/data_folders.h"
 #include "support/direction_batch.h"
 #include "support/expect_error.h"
 #include "support/simd_targets.h"
@@ -110,7 +111,7 @@ struct Figures {
 };
 
 TEST(NeuralBrdf, SlowSharedDataFiguresAgreeWithAnotherImplementation) {
-  const auto data = std::filesystem::path(BRDF_SHARED_DIR) / "data";
+  const auto data = test::shared_folder() / "data";
   if (!std::filesystem::exists(data / "models" / "nbrdf_rgl.npz")) GTEST_SKIP() << data << " is absent";
   const peers::NpzFile networks(data / "models" / "nbrdf_rgl.npz");
   for (const Figures& known :

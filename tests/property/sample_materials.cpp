@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 // The checks of support/sampling_checks.h for real materials and for MERL-layout tables, compressed, at every level.
 #include "support/chi_squared.h"
+#include "support/data_folders.h"
 #include "support/sampling_checks.h"
 #include "support/small_measurement.h"
 
@@ -53,7 +54,7 @@ std::vector<Source> sources() {
     for (const auto& entry : fs::directory_iterator(folder, ignored))
       if (entry.path().extension() == extension) files.push_back(entry.path());
   };
-  collect(fs::path(BRDF_SHARED_DIR) / "data" / "rgl", ".bsdf");
+  collect(test::shared_folder() / "data" / "rgl", ".bsdf");
   if (const char* merl = std::getenv("BRDF_MERL_DIR")) collect(merl, ".binary");
   std::sort(files.begin(), files.end());
   for (const fs::path& file : files) {

@@ -8,6 +8,9 @@
 #include <glm/gtc/matrix_transform.hpp>
 #include <gtest/gtest.h>
 
+#include <array>
+#include <span>
+
 namespace brdf::render {
 namespace {
 
@@ -30,6 +33,12 @@ Vec3f random_direction(Random& random) {
   }
 }
 
+bool meets(const GeometryStore& store, const Ray& ray, Hit& hit) {
+  const Intersection met = store.intersect(ray);
+  if (met.is_hit()) hit = store.hit(ray, met);
+  return met.is_hit();
+}
+
 /// Rays towards the middle of a shape of radius 1 or so.
 template <class Check>
 void shoot(GeometryStore& store, Check&& check) {
@@ -39,7 +48,7 @@ void shoot(GeometryStore& store, Check&& check) {
   for (int i = 0; i < 2000; ++i) {
     const Vec3f from = random_direction(random) * 5.0f, to = random_direction(random) * 0.3f;
     Hit hit;
-    if (!store.intersect({from, glm::normalize(to - from)}, hit)) continue;
+    if (!meets(store, {from, glm::normalize(to - from)}, hit)) continue;
     ++hits;
     expect_frame(hit);
     EXPECT_NEAR(glm::length(from + glm::normalize(to - from) * hit.distance - hit.point), 0, 1e-4f);
@@ -66,7 +75,7 @@ TEST(Hits, FromWithinASphereAreFound) {
   for (int i = 0; i < 500; ++i) {
     Hit hit;
     const Vec3f start = random_direction(random), inward = glm::normalize(random_direction(random) * 0.9f - start);
-    ASSERT_TRUE(store.intersect({offset_point(start, start, inward), inward}, hit));
+    ASSERT_TRUE(meets(store, {offset_point(start, start, inward), inward}, hit));
     EXPECT_GT(hit.distance, 0.01f) << "met itself";
     EXPECT_NEAR(glm::dot(hit.normal, hit.point), 1, 1e-4f);
   }
@@ -94,6 +103,45 @@ TEST(Hits, OnAMeshWithoutCoordinatesHaveAStableFrame) {
   shoot(store, [](const Hit&) {});
 }
 
+TEST(Hits, OfAPacketAreThoseOfItsRays) {
+  GeometryStore store;
+  store.add(make_blob(48, {0.3f, 2, 3, 5}), false);
+  store.add_sphere({1.4f, 0, 0}, 0.5f);
+  store.commit();
+  Random random(6, 0, 0);
+  int hits = 0;
+  for (int i = 0; i < 500; ++i) {
+    const std::size_t count = 1 + static_cast<std::size_t>(i) % GeometryStore::packet;
+    std::array<Ray, GeometryStore::packet> rays;
+    std::array<Intersection, GeometryStore::packet> met;
+    const Vec3f from = random_direction(random) * 4.0f;
+    for (Ray& r : rays) r = {from, glm::normalize(random_direction(random) * 1.5f - from)};
+    store.intersect(std::span(rays).first(count), met);
+    for (std::size_t k = 0; k < count; ++k) {
+      const Intersection single = store.intersect(rays[k]);
+      ASSERT_EQ(met[k].shape, single.shape);
+      if (!single.is_hit()) continue;
+      ++hits;
+      EXPECT_NEAR(met[k].distance, single.distance, 1e-4f);
+      EXPECT_NEAR(glm::length(store.hit(rays[k], met[k]).point - store.hit(rays[k], single).point), 0, 1e-4f);
+    }
+  }
+  EXPECT_GT(hits, 500);
+}
+
+TEST(Hits, WithoutTangentsHaveTheSameNormals) {
+  GeometryStore store;
+  store.add(make_blob(24, {0.2f, 2, 2, 3}), false);
+  store.commit();
+  const Ray ray{{0.3f, 0.2f, 4}, {0, 0, -1}};
+  const Intersection met = store.intersect(ray);
+  ASSERT_TRUE(met.is_hit());
+  const Hit with = store.hit(ray, met), without = store.hit(ray, met, false);
+  expect_frame(without);
+  EXPECT_EQ(with.normal, without.normal);
+  EXPECT_NE(with.tangent, without.tangent);
+}
+
 TEST(Hits, FlatMeshesShowTheirFacets) {
   GeometryStore store;
   store.add(make_blob(12, {}), true);
@@ -105,11 +153,11 @@ TEST(Hits, AQuadHasItsTangentAlongU) {
   store.add(make_quad({-1, 0, 1}, {2, 0, 0}, {0, 0, -2}), false);
   store.commit();
   Hit hit;
-  ASSERT_TRUE(store.intersect({{0.3f, 2, 0.2f}, {0, -1, 0}}, hit));
+  ASSERT_TRUE(meets(store, {{0.3f, 2, 0.2f}, {0, -1, 0}}, hit));
   EXPECT_NEAR(hit.distance, 2, 1e-6f);
   EXPECT_NEAR(hit.normal.y, 1, 1e-6f);
   EXPECT_NEAR(hit.tangent.x, 1, 1e-6f);
-  EXPECT_FALSE(store.intersect({{3, 2, 0}, {0, -1, 0}}, hit));
+  EXPECT_FALSE(meets(store, {{3, 2, 0}, {0, -1, 0}}, hit));
   EXPECT_TRUE(store.occluded({{0, 2, 0}, {0, -1, 0}}, 3));
   EXPECT_FALSE(store.occluded({{0, 2, 0}, {0, -1, 0}}, 1.9f));
 }
@@ -122,10 +170,10 @@ TEST(Hits, NextRaysDoNotMeetTheFacetTheyStartFrom) {
   for (int i = 0; i < 2000; ++i) {
     const Vec3f from(200 * random.next() - 100, 300, 200 * random.next() - 100);
     Hit hit, again;
-    ASSERT_TRUE(store.intersect({from, glm::normalize(Vec3f(random.next() - 0.5f, -1, random.next() - 0.5f))}, hit));
+    ASSERT_TRUE(meets(store, {from, glm::normalize(Vec3f(random.next() - 0.5f, -1, random.next() - 0.5f))}, hit));
     Vec3f on = random_direction(random);
     if (glm::dot(on, hit.facet) < 0) on = -on;
-    EXPECT_FALSE(store.intersect({offset_point(hit.point, hit.facet, on), on}, again));
+    EXPECT_FALSE(meets(store, {offset_point(hit.point, hit.facet, on), on}, again));
   }
 }
 

@@ -2,9 +2,11 @@
 // OBJ and PLY, well formed and not.
 #include "shape/obj_reader.h"
 #include "shape/ply_reader.h"
+#include "shape/ply_writer.h"
 #include "support/expect_error.h"
 
 #include <bit>
+#include <cmath>
 #include <cstring>
 #include <glm/geometric.hpp>
 
@@ -104,6 +106,24 @@ TEST(PlyReader, ReadsBothByteOrders) {
     EXPECT_EQ(m.uvs[2], glm::vec2(0, 2));
     ASSERT_EQ(m.triangles.size(), 1U);
     EXPECT_EQ(m.triangles[0], glm::uvec3(0, 1, 2));
+  }
+}
+
+TEST(PlyWriter, IsReadBackBitForBit) {
+  Mesh m{{{0, -0.0f, 1e-30f}, {1, 0, 0}, {1.0f / 3, 1, 0}, {7, 8, 9}}, {}, {}, {{0, 1, 2}, {3, 2, 1}}};
+  for (const bool normals : {false, true}) {
+    for (const bool uvs : {false, true}) {
+      m.normals.clear();
+      m.uvs.clear();
+      if (normals) m.normals = {{0, 0, 1}, {0, 1, 0}, {1, 0, 0}, {0.6f, 0, 0.8f}};
+      if (uvs) m.uvs = {{0, 0}, {1, 0}, {0, 1}, {0.1f, 2}};
+      const Mesh read = read_ply(write_ply(m), "a.ply");
+      EXPECT_EQ(read.positions, m.positions);
+      EXPECT_TRUE(std::signbit(read.positions[0].y));
+      EXPECT_EQ(read.normals, m.normals);
+      EXPECT_EQ(read.uvs, m.uvs);
+      EXPECT_EQ(read.triangles, m.triangles);
+    }
   }
 }
 

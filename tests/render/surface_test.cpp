@@ -3,6 +3,7 @@
 #include "rendered_scene.h"
 #include "support/small_measurement.h"
 #include "surface/measured_table.h"
+#include "surface/rgb_measurement.h"
 
 #include <brdf/encode.h>
 
@@ -128,6 +129,36 @@ TEST(Surface, ValuesOfATableAreTheInterpolatorsAndHolesAreFilled) {
   }
   EXPECT_GT(holes, 20);
   EXPECT_GT(values, 200);
+}
+
+TEST(Surface, LightAndViewerCanChangePlaces) {
+  const Measurement m = brdf::test::bumpy_measurement({18, 9, 24, true}, 3, 0.8);
+  const MeasuredTable plain(m), exchanged(m, true);
+  Random random(5, 5, 5);
+  int differing = 0;
+  for (int i = 0; i < 200; ++i) {
+    const Vec3f wi = cosine_direction(random.next(), random.next()), wo = cosine_direction(random.next(), random.next());
+    EXPECT_EQ(exchanged.eval(wi, wo), plain.eval(wo, wi));
+    if (std::abs(exchanged.eval(wi, wo).x / plain.eval(wi, wo).x - 1) > 0.01f) ++differing;
+  }
+  EXPECT_GT(differing, 50) << "the table is to be other than reciprocal";
+  expect_honest_sampling(Surface::from_table(std::make_shared<const MeasuredTable>(m, true)), Vec3f(0.6f, 0, 0.8f));
+}
+
+TEST(RgbMeasurement, LooksAsItsSpectrumDoes) {
+  const Measurement spectral = glossy_table(8), rgb = rgb_measurement(spectral);
+  EXPECT_EQ(rgb.channels.model, ChannelModel::rgb);
+  EXPECT_EQ(std::get<HalfDifferenceTable>(rgb.table).values.size() * 8, std::get<HalfDifferenceTable>(spectral.table).values.size() * 3);
+  const MeasurementInterpolator before(spectral), after(rgb);
+  const ChannelsToRgb colours(spectral.channels);
+  std::vector<double> f(8), g(3);
+  for (const float x : {0.0f, 0.2f, 0.5f}) {
+    const Vec3d wi = glm::normalize(Vec3d(x, 0.1, 1)), wo = glm::normalize(Vec3d(-0.4, x, 0.8));
+    ASSERT_TRUE(before.eval(wi, wo, f) && after.eval(wi, wo, g));
+    const Vec3f wanted = colours(std::span<const double>(f));
+    for (int c = 0; c < 3; ++c) EXPECT_NEAR(g[static_cast<std::size_t>(c)], wanted[c], 1e-5 * (1 + std::abs(wanted[c])));
+  }
+  EXPECT_EQ(rgb_measurement(glossy_table(1)).channels.count, 1);
 }
 
 TEST(Surface, SpectraAndScalarsAreShown) {

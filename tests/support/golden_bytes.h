@@ -2,6 +2,8 @@
 // The files of data/golden in memory.
 #pragma once
 
+#include "support/data_folders.h"
+
 #include <algorithm>
 #include <cstddef>
 #include <filesystem>
@@ -21,7 +23,7 @@ struct GoldenFile {
 inline const std::vector<GoldenFile>& golden_files() {
   static const std::vector<GoldenFile> files = [] {
     std::vector<GoldenFile> all;
-    for (const auto& entry : std::filesystem::directory_iterator(std::filesystem::path(BRDF_SOURCE_DIR) / "data" / "golden")) {
+    for (const auto& entry : std::filesystem::directory_iterator(source_folder() / "data" / "golden")) {
       if (entry.path().extension() != ".brdfc") continue;
       std::ifstream in(entry.path(), std::ios::binary);
       const std::vector<char> raw((std::istreambuf_iterator<char>(in)), std::istreambuf_iterator<char>());

@@ -92,8 +92,8 @@ void expect_gain(const Measurement& m, int effort, const Asked& asked, double le
   const ProfileError before = error_of(m, *profile, usual.bytes), after = error_of(m, *profile, fitted.bytes);
   EXPECT_GT(before.rms / after.rms, least_rms) << before.rms << " " << after.rms;
   EXPECT_GT(before.log_error / after.log_error, least_log) << before.log_error << " " << after.log_error;
-  EXPECT_LT(largest_albedo(fitted.bytes), std::max(1.0, fitted.summary.source_albedo) + 0.02);
-  EXPECT_LT(fitted.summary.largest_albedo, std::max(1.0, fitted.summary.source_albedo) + 0.0051);
+  EXPECT_LT(largest_albedo(fitted.bytes), 1.5 * std::max(1.0, fitted.summary.source_albedo) + 0.02);
+  EXPECT_LT(fitted.summary.largest_albedo, 1.5 * std::max(1.0, fitted.summary.source_albedo) + 0.0051);
 }
 
 TEST(Profile, FewerErrorsWhereTheSceneLooksSlow) {
@@ -102,6 +102,19 @@ TEST(Profile, FewerErrorsWhereTheSceneLooksSlow) {
   expect_gain(m, 0, dark, 1.4, 1.4);
   expect_gain(m, 25, grazing, 1.08, 1.15);
   expect_gain(m, 25, peak, 1.08, 1.3);
+}
+
+// A scale serves all directions: to bound what nobody looks at by as much as what the scene sees would darken white paper by a tenth.
+TEST(Profile, WhiteMaterialsAreNotDarkenedSlow) {
+  Measurement white = test::bumpy_measurement();
+  const double albedo = compress(white, sized(300)).summary.source_albedo;
+  for (float& v : std::get<HalfDifferenceTable>(white.table).values) v /= static_cast<float>(albedo);
+  EncodeOptions o = sized(300, profile_of(white, retro));
+  const EncodeResult fitted = compress(white, o);
+  EXPECT_EQ(fitted.summary.energy_scale, 1);
+  EXPECT_GT(fitted.summary.largest_albedo, 1.01) << "it shows nothing";
+  o.energy = EnergyMode::clamp;
+  EXPECT_LT(compress(white, o).summary.largest_albedo, 1.0051);
 }
 
 TEST(Profile, FewerErrorsOfAnInstrumentWithSlicesSlow) {
@@ -114,7 +127,7 @@ TEST(Profile, FewerErrorsOfAnInstrumentWithSlicesSlow) {
 // A profile that asks for everything alike leaves nothing to gain; the file is as good as the usual one that is as much smaller
 // as the chunk that says so.
 TEST(Profile, NoProfileMakesAFileWorseSlow) {
-  const auto decibels = [](const ProfileError& e) { return -20 * (2 * std::log10(e.rms) + std::log10(e.log_error)) / 3; };
+  const auto decibels = [](const ProfileError& e) { return -20 * (std::log10(e.rms) + 2 * std::log10(e.log_error)) / 3; };
   for (const Measurement& m : {test::bumpy_measurement(), test::slice_measurement()})
     for (const Asked& asked : {Asked([](const Vec3d&, const Vec3d&) { return true; }), grazing, peak}) {
       const auto profile = profile_of(m, asked);

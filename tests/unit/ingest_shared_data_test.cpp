@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 // Real measured materials, where they are at hand: values against an evaluator written independently in another
 // language from the format's description.
+#include "support/data_folders.h"
+
 #include <brdf/ingest.h>
 
 #include <gtest/gtest.h>
@@ -8,14 +10,10 @@
 #include <array>
 #include <filesystem>
 
-#ifndef BRDF_SHARED_DIR
-#define BRDF_SHARED_DIR ""
-#endif
-
 namespace brdf {
 namespace {
 
-std::filesystem::path rgl_folder() { return std::filesystem::path(BRDF_SHARED_DIR) / "data" / "rgl"; }
+std::filesystem::path rgl_folder() { return test::shared_folder() / "data" / "rgl"; }
 
 struct Row {
   Vec3d wi, wo;

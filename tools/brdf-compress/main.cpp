@@ -9,7 +9,6 @@
 
 #include <CLI/CLI.hpp>
 
-#include <algorithm>
 #include <array>
 #include <string>
 
@@ -43,9 +42,7 @@ ExitCode run(int argc, char** argv) {
                          add_plan(program),
 #endif
                          add_profile(program)};
-  return parse_and_run(program, {argv + 1, argv + argc}, [&verbs] {
-    return std::find_if(verbs.begin(), verbs.end(), [](const Verb& v) { return v.app->parsed(); })->run();
-  });
+  return parse_and_run(program, {argv + 1, argv + argc}, [&verbs] { return run_chosen(verbs); });
 }
 
 }  // namespace

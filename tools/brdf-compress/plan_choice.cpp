@@ -31,7 +31,7 @@ PlanChoice choose(const std::vector<PlanSlot>& slots, double budget, const Cost&
   double whole = 0;
   for (const PlanSlot& slot : slots) {
     std::vector<Alternative>& alternatives = items.emplace_back();
-    for (const TradePoint& p : slot.points) alternatives.push_back({cost(slot, p), p.error.rms * p.error.rms});
+    for (const TradePoint& p : slot.points) alternatives.push_back({cost(slot, p), p.error.log_error * p.error.log_error});
     weights.push_back(picture_weight(slot));
     whole += weights.back();
   }

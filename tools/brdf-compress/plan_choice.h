@@ -14,7 +14,7 @@ struct PlanChoice {
   std::vector<std::size_t> point;  ///< of each slot
   std::uint64_t bytes = 0;         ///< of all files
   double nanoseconds = 0;          ///< of an evaluation, the mean over those that the scene asked for
-  double expected = 0;             ///< relative rms of the picture, to first order: an upper bound where errors cancel in a pixel
+  double expected = 0;             ///< relative error of the picture, to first order: an upper bound where errors cancel in a pixel
 };
 
 /// The least error with files of at most this many bytes together. Throws Error(target_not_met) with the smallest budget.

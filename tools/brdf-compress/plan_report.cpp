@@ -35,7 +35,7 @@ Json plan_rows(const std::string& scene, const std::vector<PlanSlot>& slots, con
     row["lobes"] = p.lobes;
     row["refinements"] = p.refinements;
     row["ns_per_eval"] = p.nanoseconds;
-    row["expected_rms"] = p.error.rms;
+    row["expected_error"] = p.error.log_error;
     row["expected_log_error"] = p.error.log_error;
     row["file"] = files[i].file.empty() ? Json() : Json(files[i].file);
     row["flip"] = files[i].flip ? figure(*files[i].flip) : Json();
@@ -43,7 +43,7 @@ Json plan_rows(const std::string& scene, const std::vector<PlanSlot>& slots, con
   }
   Json whole{{"slot", nullptr}, {"scene", scene}, {"source_bytes", source_bytes}, {"bytes", choice.bytes}};
   whole["ns_per_eval"] = choice.nanoseconds;
-  whole["expected_rms"] = choice.expected;
+  whole["expected_error"] = choice.expected;
   if (picture) {
     whole["flip"] = figure(picture->result.flip);
     whole["psnr"] = figure(picture->result.psnr);
@@ -56,18 +56,18 @@ Json plan_rows(const std::string& scene, const std::vector<PlanSlot>& slots, con
 
 std::string plan_text(const Json& rows) {
   TextTable table;
-  table.header = {"slot", "holds", "level", "bytes", "ns/eval", "% of light", "pixels", "expected rms", "FLIP alone"};
+  table.header = {"slot", "holds", "level", "bytes", "ns/eval", "% of light", "pixels", "expected error", "FLIP alone"};
   std::string files;
   for (const Json& row : rows) {
     if (row["slot"].is_null()) {
-      table.rows.push_back({"all", "", "", std::to_string(row["bytes"].get<std::uint64_t>()), number(row["ns_per_eval"]), "", "", number(row["expected_rms"]),
+      table.rows.push_back({"all", "", "", std::to_string(row["bytes"].get<std::uint64_t>()), number(row["ns_per_eval"]), "", "", number(row["expected_error"]),
                             row.contains("flip") ? with_floor(row["flip"]) : "-"});
       continue;
     }
     std::string holds = row["representation"];
     if (holds == "lobes") holds = std::to_string(row["lobes"].get<int>()) + " lobes";
     table.rows.push_back({row["slot"], holds, row["level"], std::to_string(row["bytes"].get<std::uint64_t>()), number(row["ns_per_eval"]),
-                          number(100 * row["share"].get<double>()), number(row["footprint_pixels"]), number(row["expected_rms"]), with_floor(row["flip"])});
+                          number(100 * row["share"].get<double>()), number(row["footprint_pixels"]), number(row["expected_error"]), with_floor(row["flip"])});
     if (!row["file"].is_null()) files += " --material " + row["slot"].get<std::string>() + "=" + row["file"].get<std::string>() + ",eval=" + row["level"].get<std::string>();
   }
   table.left_columns = 3;

@@ -4,6 +4,7 @@
 #include "bench_speed.h"
 #include "path/profile_observer.h"
 #include "surface/measured_table.h"
+#include "surface/rgb_measurement.h"
 
 #include <brdf/error.h>
 #include <brdf/ingest.h>
@@ -20,7 +21,7 @@ std::vector<PlanSlot> plan_slots(const render::Scene& scene, const Profile& prof
     const render::MaterialSlot& slot = scene.materials[i];
     const auto asked = profile.materials.find(slot.name);
     if (!slot.used || !slot.surface.table() || asked == profile.materials.end() || asked->second.contribution() <= 0) continue;
-    slots.push_back({i, slot.name, slot.source, slot.surface.table()->measurement(), asked->second, profile.share(slot.name), {}});
+    slots.push_back({i, slot.name, slot.source, render::rgb_measurement(slot.surface.table()->measurement()), asked->second, profile.share(slot.name), {}});
   }
   return slots;
 }

@@ -28,7 +28,7 @@ struct TradeSettings {
   std::vector<std::uint64_t> sizes;
 };
 
-/// Slots of the scene that hold a measured file, a shape has, and light reached. Throws Error where a file cannot be read.
+/// Slots of the scene that hold a measured file, a shape has, and light reached. Spectra become RGB: more no picture asks. Throws Error where a file cannot be read.
 std::vector<PlanSlot> plan_slots(const render::Scene& scene, const Profile& profile);
 
 /// Renders the scene for its profile.

@@ -2,19 +2,11 @@
 // One function per verb: declares its options and says what to run when it is chosen.
 #pragma once
 
-#include "exit_codes.h"
+#include "verb.h"
 
-#include <CLI/CLI.hpp>
-
-#include <functional>
 #include <string>
 
 namespace brdf::cli {
-
-struct Verb {
-  CLI::App* app;
-  std::function<ExitCode()> run;  ///< throws Error, Failure or CLI::ValidationError
-};
 
 Verb add_compress(CLI::App& program);
 /// Writes an analytic material.

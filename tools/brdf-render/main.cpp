@@ -31,7 +31,7 @@ ExitCode run(int argc, char** argv) {
   program.require_subcommand(1);
   program.footer(footer);
   const std::string line = command_line("brdf-render", argc, argv);
-  const std::array verbs{add_render(program, line), add_compare(program, line), add_difference(program)};
+  const std::array verbs{add_render(program, line), add_compare(program, line), add_difference(program), add_export(program)};
 
   std::vector<std::string> arguments(argv + 1, argv + argc);
   const auto is_ours = [&verbs](const std::string& word) {
@@ -39,9 +39,7 @@ ExitCode run(int argc, char** argv) {
            std::any_of(verbs.begin(), verbs.end(), [&word](const Verb& v) { return v.app->get_name() == word; });
   };
   if (!arguments.empty() && !is_ours(arguments.front())) arguments.insert(arguments.begin(), "render");
-  return parse_and_run(program, std::move(arguments), [&verbs] {
-    return std::find_if(verbs.begin(), verbs.end(), [](const Verb& v) { return v.app->parsed(); })->run();
-  });
+  return parse_and_run(program, std::move(arguments), [&verbs] { return run_chosen(verbs); });
 }
 
 }  // namespace

@@ -58,6 +58,7 @@ Json render_row(const Scene& scene, const RenderOptions& options, const RenderRe
   row["triangles"] = scene.geometry.triangles();
   row["load_seconds"] = load_seconds;
   row["seconds"] = result.seconds;
+  row["processor_seconds"] = result.processor_seconds;
   row["paths"] = result.counts.paths;
   row["vertices"] = result.counts.vertices;
   row["rays"] = result.counts.rays;

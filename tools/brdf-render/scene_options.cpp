@@ -27,8 +27,11 @@ void take_setting(const std::string& setting, render::MaterialFile& material, co
   } else if (key == "position") {
     if (value != "edge" && value != "centre") throw CLI::ValidationError(option, "position is '" + value + "', allowed is edge or centre");
     material.position = value == "edge" ? SamplePosition::edge : SamplePosition::centre;
+  } else if (key == "incident") {
+    if (value != "light" && value != "viewer") throw CLI::ValidationError(option, "incident is '" + value + "', allowed is light or viewer");
+    material.incident = value == "light" ? render::IncidentSide::light : render::IncidentSide::viewer;
   } else {
-    throw CLI::ValidationError(option, "'" + setting + "' is none of eval=LEVEL, prefix=BYTES and position=edge|centre");
+    throw CLI::ValidationError(option, "'" + setting + "' is none of eval=LEVEL, prefix=BYTES, position=edge|centre and incident=light|viewer");
   }
 }
 
@@ -38,7 +41,7 @@ void add_scene(CLI::App& verb, SceneOptions& o) {
   verb.add_option("SCENE", o.file, "A scene file; docs/scene_format.md describes it")->required();
   verb.add_option("--material", o.materials,
                   "Material file to take for a slot, measured or .brdfc; repeatable. ,eval=LEVEL ,prefix=BYTES ,position=edge|centre "
-                  "may follow the name")
+                  ",incident=light|viewer may follow the name")
       ->type_name("SLOT=FILE")
       ->allow_extra_args(false);
   verb.add_option("--search", o.search, "Folder to look for material files in, instead of those that the scene names; repeatable")
@@ -63,7 +66,7 @@ std::pair<std::string, render::MaterialFile> parse_material(const std::string& t
   return {text.substr(0, equals), material};
 }
 
-render::Scene open_scene(const SceneOptions& o) {
+render::LoadOptions load_options(const SceneOptions& o) {
   render::LoadOptions load;
   for (const std::string& text : o.materials) {
     auto [slot, material] = parse_material(text, "--material");
@@ -72,6 +75,11 @@ render::Scene open_scene(const SceneOptions& o) {
     }
   }
   if (!o.search.empty()) load.search.emplace(o.search.begin(), o.search.end());
+  return load;
+}
+
+render::Scene open_scene(const SceneOptions& o) {
+  const render::LoadOptions load = load_options(o);
   try {
     return render::load_scene(o.file, load);
   } catch (const Error& e) {

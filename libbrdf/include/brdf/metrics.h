@@ -39,9 +39,10 @@ struct BandedError {
   double p95 = 0, max = 0;  ///< of single pairs, mean over channels, below 85 degrees
 };
 
-/// Errors weighted by what a scene asked: with w_q the share of the contribution of query q and F the mean reference f of its
-/// cell of the profile,
-///   rms       = sqrt sum_q w_q mean_c ((f'_qc - f_qc) / F)^2           the relative error of what the material contributes,
+/// Errors weighted by what a scene asked: with w_q the share of the contribution of query q's cell of the profile, spread evenly over
+/// it, and F the mean reference f of that cell,
+///   rms       = sqrt sum_q w_q mean_c (f'_qc - f_qc)^2 / (F max(f_qc, F/10))     the relative error of what the material contributes,
+///               which within a cell is in proportion to f,
 ///   log_error = sum_q w_q mean_c |log(f'_qc + F/100) - log(f_qc + F/100)|.
 /// NaN where there is no profile.
 struct ProfileError {

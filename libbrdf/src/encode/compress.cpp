@@ -169,7 +169,9 @@ EncodeResult compress_without_cdf(const Measurement& m, const EncodeOptions& opt
   std::optional<encode::Verification> coarse;
   if (coarse_quality < final_quality) coarse.emplace(m, coarse_quality, options.threads, asked);
   const encode::Verification& choosing = coarse ? *coarse : verification;
-  const double energy_limit = asked != nullptr ? std::max(1.0, encode::largest_albedo(m, Material::from_lobes(fit.lobes).prepare(EvalLevel::fast, true))) : 0;
+  const double bound = options.energy == EnergyMode::clamp ? 1 : encode::unasked_energy;  // under a profile
+  const double energy_limit =
+      asked != nullptr ? bound * std::max(1.0, encode::largest_albedo(m, Material::from_lobes(fit.lobes).prepare(EvalLevel::fast, true))) : 0;
   const auto frame_for = [&](const FitResult& f) {
     LobeSet lobes = f.lobes;
     if (asked != nullptr) encode::bound_lobes(lobes, energy_limit);  // of what nobody asked the fit knows little
@@ -265,12 +267,13 @@ EncodeResult compress_without_cdf(const Measurement& m, const EncodeOptions& opt
   finish(best);
   summary.source_albedo = encode::largest_albedo(m, Material::decode(best.bytes));
   const encode::ClampedEnergy energy =
-      options.energy == EnergyMode::clamp || asked != nullptr ? encode::clamp_energy(best, std::max(1.0, summary.source_albedo) + encode::energy_tolerance,
-                                                                 options.target_size.value_or(UINT64_MAX), finish)
-                                          : encode::ClampedEnergy{1, encode::largest_albedo(best.bytes)};
+      options.energy == EnergyMode::clamp || asked != nullptr
+          ? encode::clamp_energy(best, (asked != nullptr ? bound : 1.0) * std::max(1.0, summary.source_albedo) + encode::energy_tolerance,
+                                 options.target_size.value_or(UINT64_MAX), finish)
+          : encode::ClampedEnergy{1, encode::largest_albedo(best.bytes)};
   summary.energy_scale = energy.scale;
   summary.largest_albedo = energy.albedo.value;
-  summary.energy = encode::energy_sentence(asked != nullptr ? EnergyMode::clamp : options.energy, energy.albedo, summary.source_albedo, energy.scale);
+  summary.energy = encode::energy_sentence(options.energy, energy.albedo, summary.source_albedo, energy.scale);
   if (asked != nullptr) summary.profile = encode::record_purpose(best, verification, options);
   summary.seconds_verify = seconds_since(start);
 

@@ -16,6 +16,10 @@ namespace brdf::encode {
 /// What a directional albedo may exceed max(1, that of the source) by: the quadrature's own error and rounding.
 inline constexpr double energy_tolerance = 0.005;
 
+/// What a file for one scene may reflect, over max(1, the source's largest albedo). A scale serves all directions, so a closer bound
+/// on those that nobody looks from would darken the others.
+inline constexpr double unasked_energy = 1.5;
+
 /// The largest directional albedo of any channel at any level, for wo from the normal to 85 degrees.
 struct LargestAlbedo {
   double value = 0;

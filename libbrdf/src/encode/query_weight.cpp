@@ -17,7 +17,8 @@ namespace {
 
 constexpr int places = 3;              // along each axis of a cell of the profile
 constexpr double most_of_fit = 0.9;    // lobes carry what no residual corrects, so they stay closer to all of the measurement
-constexpr double least_slope = 0.05, largest_slope = 20;  // squares, of the samples of the fit
+constexpr double least_slope = 0.05, largest_slope = 20;  // of the samples of the fit
+constexpr double darkest_place = 0.1;  // of the mean f of its cell, as in the metric
 constexpr double darkest_cell = 1e-3;  // of the mean f that was asked for, as in the metric
 
 /// Cell of an axis of `n` cells, even in u.
@@ -81,10 +82,10 @@ void QueryWeight::blend(const Bins& bins, const residual::Basis& basis, std::vec
       if (bins.valid[cell] != 0) hit.push_back(cell);
     });
     for (const std::size_t cell : hit) {
-      double slope = 0;  // d f = (f + epsilon) d y, relative to the f of this place
+      double slope = 0;  // square of d f = (f + epsilon) d y, over f and the scale of its cell
       for (std::size_t k = 0; k < n; ++k) {
-        const double s = (std::max(bins.f[cell * n + k], 0.0) + basis.epsilon) / c.scale;
-        slope += s * s;
+        const double f = std::max(bins.f[cell * n + k], 0.0), s = (f + basis.epsilon) / c.scale;
+        slope += s * s / std::max(f / c.scale, darkest_place);
       }
       asked[cell] += c.share / static_cast<double>(hit.size()) * slope / static_cast<double>(n);
     }
@@ -115,10 +116,10 @@ fit::SampleSet QueryWeight::samples(const Measurement& m, int count) const {
     if (!std::all_of(f.begin(), f.end(), [](double v) { return std::isfinite(v); })) continue;
     asked.wi.push_back(wi);
     asked.wo.push_back(wo);
-    // the loss is of log f, what is wanted of f relative to its surroundings: d f = f d log f
+    // the loss is of log f; each place counts by its contribution, which its f has a share in
     double mean = 0;
     for (const double v : f) mean += std::max(v, 0.0) / static_cast<double>(n);
-    asked.weight.push_back(std::clamp(mean * mean / (c.scale * c.scale), least_slope, largest_slope));
+    asked.weight.push_back(std::clamp(mean / c.scale, least_slope, largest_slope));
     for (const double v : f) asked.values.push_back(std::max(v, 0.0));
   }
   if (asked.size() == 0) return usual;

@@ -89,7 +89,7 @@ class Measure {
 /// Whether `a` is at least as good in everything; equal points are told apart by their order.
 bool beats(const TradePoint& a, const TradePoint& b) noexcept {
   const bool slower = a.nanoseconds > b.nanoseconds;  // false for NaN: without a clock time does not count
-  return a.bytes <= b.bytes && a.error.rms <= b.error.rms && !slower;
+  return a.bytes <= b.bytes && a.error.log_error <= b.error.log_error && !slower;
 }
 
 }  // namespace
@@ -134,7 +134,7 @@ std::vector<TradePoint> measure_trade(const Measurement& m, const TradeOptions& 
   }
   if (points.empty()) throw *unmet;
   std::stable_sort(points.begin(), points.end(), [](const TradePoint& a, const TradePoint& b) {
-    return std::tie(a.bytes, a.error.rms) < std::tie(b.bytes, b.error.rms);
+    return std::tie(a.bytes, a.error.log_error) < std::tie(b.bytes, b.error.log_error);
   });
   std::vector<TradePoint> kept;
   for (const TradePoint& p : points)

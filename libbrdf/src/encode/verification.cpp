@@ -51,9 +51,9 @@ ErrorReport Verification::score(std::span<const std::byte> bytes, EvalLevel leve
 double merit(const ErrorReport& r) noexcept {
   const double usual = (r.psnr_env + r.psnr_lights - 20 * std::log10(std::max(r.log_mae.all, 1e-9))) / 3;
   if (std::isnan(r.profile.rms)) return usual;
-  // the rms, in which a few bright pairs may decide, and for a third the logarithm, in which all count alike
+  // the logarithm, which pictures follow best, and for a third the rms, in which a few bright pairs may decide
   const auto decibels = [](double error) { return -20 * std::log10(std::max(error, 1e-9)); };
-  return (1 - asked_share) * usual + asked_share * (2 * decibels(r.profile.rms) + decibels(r.profile.log_error)) / 3;
+  return (1 - asked_share) * usual + asked_share * (decibels(r.profile.rms) + 2 * decibels(r.profile.log_error)) / 3;
 }
 
 }  // namespace brdf::encode

@@ -15,6 +15,7 @@ namespace brdf {
 namespace {
 
 constexpr int places = 2;                 // along each axis of a cell
+constexpr double darkest_place = 0.1;     // of the mean f of its cell: a place of less counts as if it had that
 constexpr double darkest_cell = 1e-3;     // of the mean f that was asked for: a cell of less counts as if it had that
 constexpr double log_offset = 0.01;       // of the mean f of the cell
 
@@ -106,8 +107,8 @@ ProfileError ProfileComparison::score(const BatchEval& candidate) const {
     double square = 0, logarithm = 0;
     for (std::size_t i = c.first * n; i < (c.first + c.count) * n; ++i) {
       const auto wanted = static_cast<double>(s.f[i]), found = static_cast<double>(f[i]);
-      const double relative = (found - wanted) / c.scale;
-      square += relative * relative;
+      // the places of a cell contribute in the ratio of their f: (f / scale) ((found - f) / f)^2
+      square += (found - wanted) * (found - wanted) / (std::max(wanted, darkest_place * c.scale) * c.scale);
       logarithm += std::abs(std::log((std::max(found, 0.0) + offset) / (wanted + offset)));
     }
     squares += c.share * square / static_cast<double>(n);

@@ -43,21 +43,34 @@ Lights::Lights(std::optional<Environment> environment, std::vector<AreaLight> ar
   choice_ = PiecewiseConstant1D(power);
 }
 
-LightSample Lights::sample(const Vec3f& point, float choose, const glm::vec2& u) const noexcept {
+LightDraw Lights::draw(float choose, const glm::vec2& u) const noexcept {
+  LightDraw d{choice_.size() < 2 ? 0 : choice_.sample(choose).cell, u, {}, {}};
+  if (is_environment(d.light)) {
+    d.row = environment_->draw_row(u.y);
+    environment_->prefetch(d.row, u.x);
+  }
+  return d;
+}
+
+void Lights::finish(LightDraw& draw) const noexcept {
+  if (!is_environment(draw.light)) return;
+  draw.sky = environment_->draw(draw.row, draw.u.x);
+  environment_->prefetch(draw.sky.patch);
+}
+
+LightSample Lights::sample(const LightDraw& draw, const Vec3f& point) const noexcept {
   LightSample s;
   if (empty()) return s;
-  std::size_t i = choice_.size() == 1 ? 0 : choice_.sample(choose).cell;
-  const float chosen = choice_.probability(i);
-  if (i < areas_.size()) {
-    s = sample_area(areas_[i], point, u);
-  } else if (i -= areas_.size(); i < directional_.size()) {
-    const DirectionalLight& d = directional_[i];
-    s = {d.to_light, std::numeric_limits<float>::infinity(), d.irradiance, 1, true};
-  } else {
-    s.direction = environment_->sample_radiance(u, s.pdf, s.radiance);
+  if (draw.light < areas_.size()) {
+    s = sample_area(areas_[draw.light], point, draw.u);
+  } else if (is_environment(draw.light)) {
+    s.direction = environment_->sample(draw.sky, s.pdf, s.radiance);
     s.distance = std::numeric_limits<float>::infinity();
+  } else {
+    const DirectionalLight& d = directional_[draw.light - areas_.size()];
+    s = {d.to_light, std::numeric_limits<float>::infinity(), d.irradiance, 1, true};
   }
-  s.pdf *= chosen;
+  s.pdf *= choice_.probability(draw.light);
   return s;
 }
 
@@ -80,14 +93,6 @@ LightSample Lights::sample_area(const Area& light, const Vec3f& point, const glm
   s.radiance = light.radiance;
   s.pdf = distance2 / (cosine * light.area);
   return s;
-}
-
-Vec3f Lights::background(const Vec3f& direction, float& pdf) const noexcept {
-  pdf = 0;
-  if (!environment_) return Vec3f(0);
-  const Vec3f radiance = environment_->radiance_pdf(direction, pdf);
-  pdf *= choice_.probability(choice_.size() - 1);
-  return radiance;
 }
 
 Vec3f Lights::area(std::uint32_t i, float cosine, float distance, float& pdf) const noexcept {

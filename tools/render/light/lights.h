@@ -33,6 +33,15 @@ struct LightSample {
   bool is_delta = false;
 };
 
+/// A light that was chosen, and a place on it. It can be drawn before the point is known that is to be lit, and in two steps:
+/// what each reads is far away in memory.
+struct LightDraw {
+  std::size_t light = 0;
+  glm::vec2 u{0, 0};
+  PiecewiseConstant1D::Draw row;  ///< after the first
+  Environment::Draw sky;          ///< after the second
+};
+
 /// Immutable and thread-safe. One light is chosen with a fixed probability: half evenly, half by estimated power.
 class Lights {
  public:
@@ -43,17 +52,35 @@ class Lights {
   bool empty() const noexcept { return choice_.size() == 0; }
   bool has_directional() const noexcept { return !directional_.empty(); }
 
-  /// `choose` picks the light, `u` the place on it.
-  LightSample sample(const Vec3f& point, float choose, const glm::vec2& u) const noexcept;
+  /// `choose` picks the light, `u` the place on it. What `finish` will read is asked for.
+  LightDraw draw(float choose, const glm::vec2& u) const noexcept;
+  /// Asks for what `sample` will read.
+  void finish(LightDraw& draw) const noexcept;
+  LightSample sample(const LightDraw& draw, const Vec3f& point) const noexcept;
 
-  /// Radiance of the environment, and the pdf that `sample` has for that direction.
-  Vec3f background(const Vec3f& direction, float& pdf) const noexcept;
+  /// Radiance of the environment, and the pdf that a draw has for that direction, whose `patch` is given.
+  Vec3f background(const Vec3f& direction, const Environment::Patch& patch, float& pdf) const noexcept {
+    pdf = 0;
+    if (!environment_) return Vec3f(0);
+    const Vec3f radiance = environment_->radiance(direction, patch, pdf);
+    pdf *= choice_.probability(choice_.size() - 1);
+    return radiance;
+  }
+  /// Where a direction looks. What `background` will read is asked for.
+  Environment::Patch patch(const Vec3f& direction) const noexcept {
+    if (!environment_) return {};
+    const Environment::Patch patch = environment_->patch(direction);
+    environment_->prefetch(patch);
+    return patch;
+  }
   bool has_environment() const noexcept { return environment_.has_value(); }
 
   /// Radiance of area light `i`, seen at `cosine` to its normal over `distance`, and the pdf that `sample` has there.
   Vec3f area(std::uint32_t i, float cosine, float distance, float& pdf) const noexcept;
 
  private:
+  bool is_environment(std::size_t light) const noexcept { return environment_ && light + 1 == choice_.size(); }
+
   struct Area {
     Vec3f radiance;
     float area = 0;

@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "light/sky.h"
 
+#include "light/lat_long.h"
+
 #include "light/environment.h"
 
 #include <algorithm>

@@ -1,13 +1,14 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "path/path_tracer.h"
 
-#include "image/luminance.h"
+#include "path/query_log.h"
 
 #include <algorithm>
 #include <array>
 #include <cmath>
 #include <glm/geometric.hpp>
 #include <limits>
+#include <type_traits>
 
 namespace brdf::render {
 namespace {
@@ -28,30 +29,7 @@ struct Frame {
   Vec3f world(const Vec3f& v) const noexcept { return x * v.x + y * v.y + z * v.z; }
 };
 
-/// Queries of the path so far, whose contributions come to light only at its end.
-class QueryLog {
- public:
-  void add(const MaterialQuery& query, const Vec3f& radiance_before) noexcept {
-    if (size_ < entries_.size()) entries_[size_++] = {query, luminance(radiance_before)};
-  }
-  void report(const Vec3f& radiance, PathObserver& observer) noexcept {
-    const float whole = luminance(radiance);
-    for (std::size_t i = 0; i < size_; ++i) {
-      Entry& e = entries_[i];
-      if ((e.query.operations & query_sample) != 0) e.query.contribution = std::max(0.0f, whole - e.before);
-      observer.query(e.query);
-    }
-  }
-
- private:
-  struct Entry {
-    MaterialQuery query;
-    float before = 0;  ///< what the path had gathered when it went on from here; what comes later passes through this pair
-  };
-  std::array<Entry, 256> entries_;
-  std::size_t size_ = 0;
-};
-
+/// Stands for a QueryLog where nobody observes.
 struct NoLog {};
 
 }  // namespace
@@ -91,10 +69,8 @@ float PathTracer::share_of_bsdf(bool delta, float drawn_pdf, float light_pdf) co
   return lights_by_bsdf_ ? power_heuristic(drawn_pdf, light_pdf) : 0.0f;
 }
 
-Vec3f PathTracer::direct_light(const Hit& hit, const Surface& surface, const Vec3f& wo, bool flipped, Random& random, Vec3f& wi, Ray& shadow,
-                               float& distance) const noexcept {
-  const float choose = random.next();
-  const LightSample light = scene_->lights.sample(hit.point, choose, random.next2());
+Vec3f PathTracer::direct_light(const LightSample& light, const Hit& hit, const Surface& surface, const Vec3f& wo, bool flipped, Vec3f& wi,
+                               Ray& shadow, float& distance) const noexcept {
   if (!(light.pdf > 0) || (!light.is_delta && !lights_by_choice_)) return Vec3f(0);
   const float side = flipped ? -1.0f : 1.0f;
   // light through the surface by its shading normal, although the surface itself is in between
@@ -110,96 +86,146 @@ Vec3f PathTracer::direct_light(const Hit& hit, const Surface& surface, const Vec
   return f * light.radiance * (wi.z * weight / light.pdf);
 }
 
-template <bool observed>
-Vec3f PathTracer::trace(Ray ray, Random& random, PathCounts& counts, PathObserver* observer) const noexcept {
-  std::conditional_t<observed, QueryLog, NoLog> log;
-  Vec3f radiance(0), throughput(1);
-  float drawn_pdf = 0, eta_scale = 1;
-  bool delta = true;        // the camera's own choice of direction is one
-  bool seen_first = true;   // nothing but delta lobes between here and the camera
-  ++counts.paths;
-  for (int depth = 0;; ++depth) {
-    Hit hit;
-    ++counts.rays;
-    if constexpr (observed) observer->ray(ray, infinite, false);
-    if (!scene_->geometry.intersect(ray, hit)) {
-      float light_pdf;
-      const Vec3f light = scene_->lights.background(ray.direction, light_pdf);
-      radiance += throughput * light * share_of_bsdf(delta, drawn_pdf, light_pdf);
-      break;
-    }
-    if (const std::uint32_t light = scene_->light_of[hit.shape]; light != no_index) {
-      float light_pdf;
-      const Vec3f emitted = scene_->lights.area(light, -glm::dot(hit.facet, ray.direction), hit.distance, light_pdf);
-      radiance += throughput * emitted * share_of_bsdf(delta, drawn_pdf, light_pdf);
-    }
-    if (depth >= max_depth_) break;
-    ++counts.vertices;
-
-    const std::uint32_t slot = scene_->material_of[hit.shape];
-    const Surface& surface = surfaces_[slot];
-    const Vec3f back = -ray.direction;
-    const bool from_behind = glm::dot(hit.facet, back) < 0;
-    // A shading normal that looks away from the viewer describes no surface that the viewer could see.
-    if ((glm::dot(hit.normal, back) < 0) != from_behind) {
-      hit.normal = hit.facet;
-      make_frame(hit.normal, hit.tangent, hit.bitangent);
-    }
-    const bool flipped = from_behind && !surface.transmits();  // reflectors look the same from behind
-    if (flipped) {
-      hit.normal = -hit.normal;
-      hit.bitangent = -hit.bitangent;
-    }
-    const Frame frame{hit.tangent, hit.bitangent, hit.normal};
-    const Vec3f wo = frame.local(back);
-
-    if (choose_lights_ && surface.has_values()) {
-      Vec3f wi;
-      Ray shadow;
-      float distance;
-      Vec3f light = direct_light(hit, surface, wo, flipped, random, wi, shadow, distance);
-      if (light != Vec3f(0)) {
-        ++counts.shadow_rays;
-        if constexpr (observed) observer->ray(shadow, distance, true);
-        if (scene_->geometry.occluded(shadow, distance)) light = Vec3f(0);
-        light *= throughput;
-        radiance += light;
-        if constexpr (observed) {
-          const std::uint32_t operations = query_eval | (lights_by_bsdf_ ? query_pdf : 0U);
-          log.add({slot, operations, sample_reflection, wi, wo, luminance(light), 0}, radiance);
-        }
-      }
-    }
-
-    const SurfaceSample s = surface.sample(wo, random.next3(), TransportMode::radiance);
-    const bool is_seen_first = seen_first && (s.flags & sample_delta) == 0;
-    if constexpr (observed) {
-      log.add({slot, query_sample, s.flags, s.wi, wo, 0, is_seen_first ? 1.0f : 0.0f}, radiance);
-    }
-    seen_first = seen_first && !is_seen_first;
-    if (!(s.pdf > 0) || s.weight == Vec3f(0)) break;
-    const Vec3f direction = glm::normalize(frame.world(s.wi));
-    const float facet_side = glm::dot(hit.facet, direction) * (flipped ? -1.0f : 1.0f);
-    if ((facet_side > 0) != (s.wi.z > 0)) break;  // as for direct light
-    throughput *= s.weight;
-    eta_scale *= s.eta * s.eta;
-    delta = (s.flags & sample_delta) != 0;
-    drawn_pdf = s.pdf;
-    ray = {offset_point(hit.point, hit.facet, direction), direction};
-
-    if (depth + 1 >= roulette_depth_) {
-      // The factor of eta squared is undone again when light leaves the medium; it must not decide about the path.
-      const float survival = std::min(0.95f, std::max({throughput.x, throughput.y, throughput.z}) * eta_scale);
-      if (random.next() >= survival) break;
-      throughput /= survival;
-    }
+void PathTracer::arrive(Path& path) const noexcept {
+  if (!path.met.is_hit()) {
+    path.patch = scene_->lights.patch(path.ray.direction);
+    return;
   }
-  if constexpr (observed) log.report(radiance, *observer);
-  return radiance;
+  scene_->geometry.prefetch(path.met);
+  if (!choose_lights_) return;
+  const float choose = path.random.next();
+  path.light = scene_->lights.draw(choose, path.random.next2());
 }
 
-Vec3f PathTracer::radiance(Ray ray, Random& random, PathCounts& counts, PathObserver* observer) const noexcept {
-  return observer ? trace<true>(ray, random, counts, observer) : trace<false>(ray, random, counts, nullptr);
+template <class Log>
+bool PathTracer::advance(Path& path, Log& log, PathCounts& counts, PathObserver* observer) const noexcept {
+  constexpr bool observed = std::is_same_v<Log, QueryLog>;
+  const Ray ray = path.ray;
+  if (!path.met.is_hit()) {
+    float light_pdf;
+    const Vec3f light = scene_->lights.background(ray.direction, path.patch, light_pdf);
+    path.radiance += path.throughput * light * share_of_bsdf(path.delta, path.drawn_pdf, light_pdf);
+    return false;
+  }
+  const std::uint32_t slot = scene_->material_of[path.met.shape];
+  const Surface& surface = surfaces_[slot];
+  Hit hit = scene_->geometry.hit(ray, path.met, surface.has_grain());
+  if (const std::uint32_t area = scene_->light_of[hit.shape]; area != no_index) {
+    float light_pdf;
+    const Vec3f emitted = scene_->lights.area(area, -glm::dot(hit.facet, ray.direction), hit.distance, light_pdf);
+    path.radiance += path.throughput * emitted * share_of_bsdf(path.delta, path.drawn_pdf, light_pdf);
+  }
+  if (path.depth >= max_depth_) return false;
+  ++counts.vertices;
+
+  const Vec3f back = -ray.direction;
+  const bool from_behind = glm::dot(hit.facet, back) < 0;
+  // A shading normal that looks away from the viewer describes no surface that the viewer could see.
+  if ((glm::dot(hit.normal, back) < 0) != from_behind) {
+    hit.normal = hit.facet;
+    make_frame(hit.normal, hit.tangent, hit.bitangent);
+  }
+  const bool flipped = from_behind && !surface.transmits();  // reflectors look the same from behind
+  if (flipped) {
+    hit.normal = -hit.normal;
+    hit.bitangent = -hit.bitangent;
+  }
+  const Frame frame{hit.tangent, hit.bitangent, hit.normal};
+  const Vec3f wo = frame.local(back);
+
+  if (choose_lights_ && surface.has_values()) {
+    const LightSample light = scene_->lights.sample(path.light, hit.point);
+    Vec3f wi;
+    Ray shadow;
+    float distance;
+    Vec3f lit = direct_light(light, hit, surface, wo, flipped, wi, shadow, distance);
+    if (lit != Vec3f(0)) {
+      ++counts.shadow_rays;
+      if constexpr (observed) observer->ray(shadow, distance, true);
+      if (scene_->geometry.occluded(shadow, distance)) lit = Vec3f(0);
+      lit *= path.throughput;
+      path.radiance += lit;
+      if constexpr (observed) {
+        const std::uint32_t operations = query_eval | (lights_by_bsdf_ ? query_pdf : 0U);
+        log.add({slot, operations, sample_reflection, wi, wo, luminance(lit), 0}, path.radiance);
+      }
+    }
+  }
+
+  const SurfaceSample s = surface.sample(wo, path.random.next3(), TransportMode::radiance);
+  const bool is_seen_first = path.seen_first && (s.flags & sample_delta) == 0;
+  if constexpr (observed) {
+    log.add({slot, query_sample, s.flags, s.wi, wo, 0, is_seen_first ? 1.0f : 0.0f}, path.radiance);
+  }
+  path.seen_first = path.seen_first && !is_seen_first;
+  if (!(s.pdf > 0) || s.weight == Vec3f(0)) return false;
+  const Vec3f direction = glm::normalize(frame.world(s.wi));
+  const float facet_side = glm::dot(hit.facet, direction) * (flipped ? -1.0f : 1.0f);
+  if ((facet_side > 0) != (s.wi.z > 0)) return false;  // as for direct light
+  path.throughput *= s.weight;
+  path.eta_scale *= s.eta * s.eta;
+  path.delta = (s.flags & sample_delta) != 0;
+  path.drawn_pdf = s.pdf;
+  path.ray = {offset_point(hit.point, hit.facet, direction), direction};
+
+  if (++path.depth >= roulette_depth_) {
+    // The factor of eta squared is undone again when light leaves the medium; it must not decide about the path.
+    const float survival = std::min(0.95f, std::max({path.throughput.x, path.throughput.y, path.throughput.z}) * path.eta_scale);
+    if (path.random.next() >= survival) return false;
+    path.throughput /= survival;
+  }
+  return true;
+}
+
+template <class Log>
+void PathTracer::trace(std::span<Path> paths, std::span<Log> logs, PathCounts& counts, PathObserver* observer) const noexcept {
+  std::array<Ray, most_paths> rays;
+  std::array<Intersection, most_paths> met;
+  std::array<std::size_t, most_paths> under_way;
+  std::size_t left = paths.size();
+  counts.paths += paths.size();
+  for (std::size_t i = 0; i < paths.size(); ++i) {
+    rays[i] = paths[i].ray;
+    under_way[i] = i;
+  }
+  scene_->geometry.intersect(std::span(rays).first(paths.size()), met);
+  for (std::size_t i = 0; i < paths.size(); ++i) {
+    paths[i].met = met[i];
+    arrive(paths[i]);
+  }
+  while (left > 0) {
+    counts.rays += left;
+    if (choose_lights_) {
+      for (std::size_t k = 0; k < left; ++k) {
+        if (paths[under_way[k]].met.is_hit()) scene_->lights.finish(paths[under_way[k]].light);
+      }
+    }
+    std::size_t going_on = 0;
+    for (std::size_t k = 0; k < left; ++k) {
+      const std::size_t i = under_way[k];
+      if constexpr (std::is_same_v<Log, QueryLog>) observer->ray(paths[i].ray, infinite, false);
+      if (advance(paths[i], logs[i], counts, observer)) under_way[going_on++] = i;
+    }
+    left = going_on;
+    for (std::size_t k = 0; k < left; ++k) {
+      Path& path = paths[under_way[k]];
+      path.met = scene_->geometry.intersect(path.ray);
+      arrive(path);
+    }
+  }
+  if constexpr (std::is_same_v<Log, QueryLog>) {
+    for (std::size_t i = 0; i < paths.size(); ++i) logs[i].report(paths[i].radiance, *observer);
+  }
+}
+
+void PathTracer::trace(std::span<Path> paths, PathCounts& counts, PathObserver* observer) const noexcept {
+  if (observer) {
+    std::array<QueryLog, most_paths> logs;
+    trace<QueryLog>(paths, logs, counts, observer);
+  } else {
+    std::array<NoLog, most_paths> none;
+    trace<NoLog>(paths, none, counts, nullptr);
+  }
 }
 
 }  // namespace brdf::render

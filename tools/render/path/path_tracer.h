@@ -6,7 +6,9 @@
 #include "path/random.h"
 #include "scene/scene.h"
 
+#include <cstddef>
 #include <cstdint>
+#include <glm/vec2.hpp>
 #include <span>
 
 namespace brdf::render {
@@ -39,13 +41,35 @@ class PathTracer {
  public:
   PathTracer(const Scene& scene, std::span<const Surface> surfaces, Sampling sampling) noexcept;
 
-  /// `observer` may be null.
-  Vec3f radiance(Ray ray, Random& random, PathCounts& counts, PathObserver* observer) const noexcept;
+  /// A path under way. It starts as a ray of the camera and its random numbers.
+  struct Path {
+    Ray ray;
+    Random random;
+    Vec3f radiance{0};  ///< the result
+
+    Vec3f throughput{1};
+    Intersection met;         ///< of the ray
+    Environment::Patch patch; ///< of the environment where it met nothing
+    LightDraw light;          ///< for the vertex where it met something
+    float drawn_pdf = 0, eta_scale = 1;
+    int depth = 0;
+    bool delta = true;        ///< how the ray was drawn; the camera's own choice of direction is one
+    bool seen_first = true;   ///< nothing but delta lobes between here and the camera
+  };
+  static constexpr std::size_t most_paths = GeometryStore::packet;
+  /// Traces at most `most_paths` paths from neighbouring places of the film, a vertex of each in turn: what one needs from memory
+  /// comes while the others are at work. `observer` may be null.
+  void trace(std::span<Path> paths, PathCounts& counts, PathObserver* observer) const noexcept;
 
  private:
-  template <bool observed>
-  Vec3f trace(Ray ray, Random& random, PathCounts& counts, PathObserver* observer) const noexcept;
-  Vec3f direct_light(const Hit& hit, const Surface& surface, const Vec3f& wo, bool flipped, Random& random, Vec3f& wi, Ray& shadow,
+  template <class Log>
+  void trace(std::span<Path> paths, std::span<Log> logs, PathCounts& counts, PathObserver* observer) const noexcept;
+  /// Shades the vertex that the ray arrives at and leaves the next ray; false where the path ends.
+  template <class Log>
+  bool advance(Path& path, Log& log, PathCounts& counts, PathObserver* observer) const noexcept;
+  /// Asks memory for what `advance` needs where the ray has arrived.
+  void arrive(Path& path) const noexcept;
+  Vec3f direct_light(const LightSample& light, const Hit& hit, const Surface& surface, const Vec3f& wo, bool flipped, Vec3f& wi, Ray& shadow,
                      float& distance) const noexcept;
   /// Share of what a ray that was drawn with `drawn_pdf` finds, given that light sampling finds it with `light_pdf`.
   float share_of_bsdf(bool delta, float drawn_pdf, float light_pdf) const noexcept;

@@ -10,6 +10,7 @@ namespace brdf::render {
 
 class Random {
  public:
+  Random() = default;
   Random(std::uint64_t seed, std::uint64_t pixel, std::uint64_t sample) noexcept
       : state_(mix(mix(mix(seed + golden) + pixel * golden) + sample * golden)) {}
 
@@ -34,7 +35,7 @@ class Random {
     x = (x ^ (x >> 27)) * 0x94D049BB133111EBU;
     return x ^ (x >> 31);
   }
-  std::uint64_t state_;
+  std::uint64_t state_ = 0;
 };
 
 }  // namespace brdf::render

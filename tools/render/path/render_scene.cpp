@@ -4,9 +4,11 @@
 #include <brdf/error.h>
 
 #include <algorithm>
+#include <array>
 #include <atomic>
 #include <chrono>
 #include <condition_variable>
+#include <ctime>
 #include <mutex>
 #include <thread>
 #include <vector>
@@ -51,18 +53,31 @@ class Pass {
 
   void render_tile(int i, PathCounts& counts, PathObserver* observer) noexcept {
     const int left = i % columns() * tile, top = i / columns() * tile;
-    for (int y = top; y < std::min(top + tile, film_.height()); ++y) {
-      for (int x = left; x < std::min(left + tile, film_.width()); ++x) {
-        Film::Pixel& pixel = film_.at(x, y);
+    const int columns = std::min(tile, film_.width() - left), rows = std::min(tile, film_.height() - top);
+    // samples of a tile in the order of pixels, as many at a time as the tracer takes
+    std::array<PathTracer::Path, PathTracer::most_paths> paths;
+    std::array<Film::Pixel*, PathTracer::most_paths> pixels;
+    std::size_t size = 0;
+    const auto flush = [&] {
+      tracer_.trace(std::span(paths).first(size), counts, observer);
+      for (std::size_t k = 0; k < size; ++k) pixels[k]->add(paths[k].radiance);
+      size = 0;
+    };
+    for (int y = top; y < top + rows; ++y) {
+      for (int x = left; x < left + columns; ++x) {
         const auto index = static_cast<std::uint64_t>(y) * static_cast<std::uint64_t>(film_.width()) + static_cast<std::uint64_t>(x);
         for (int s = first_; s < first_ + count_; ++s) {
           Random random(seed_, index, static_cast<std::uint64_t>(s));
           const glm::vec2 jitter = random.next2();
-          const Ray ray = scene_.camera.ray(static_cast<float>(x) + jitter.x, static_cast<float>(y) + jitter.y);
-          pixel.add(tracer_.radiance(ray, random, counts, observer));
+          paths[size] = {};
+          paths[size].ray = scene_.camera.ray(static_cast<float>(x) + jitter.x, static_cast<float>(y) + jitter.y);
+          paths[size].random = random;
+          pixels[size] = &film_.at(x, y);
+          if (++size == paths.size()) flush();
         }
       }
     }
+    if (size > 0) flush();
   }
 
   const Scene& scene_;
@@ -143,6 +158,7 @@ RenderResult render_scene(const Scene& scene, const RenderOptions& options, cons
   result.film = Film(scene.description.film.width, scene.description.film.height);
   result.threads = render_threads(options.threads);
   const Clock::time_point start = Clock::now();
+  const std::clock_t processor_start = std::clock();
   Reporter reporter(progress);
   // The first passes are short, so that an early interruption finds a whole picture; later ones spare the waiting for the last tile,
   // and small pictures the starting of threads.
@@ -163,6 +179,7 @@ RenderResult render_scene(const Scene& scene, const RenderOptions& options, cons
     }
   }
   result.seconds = seconds_since(start);
+  result.processor_seconds = static_cast<double>(std::clock() - processor_start) / CLOCKS_PER_SEC;
   return result;
 }
 

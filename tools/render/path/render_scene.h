@@ -25,6 +25,7 @@ struct RenderResult {
   Film film;
   PathCounts counts;
   double seconds = 0;              ///< of wall time, without loading
+  double processor_seconds = 0;    ///< of the whole process meanwhile: on a busy machine less than threads times `seconds`
   int threads = 0;
   bool complete = false;           ///< false: it was cancelled, and the film holds what there was
 

@@ -18,6 +18,13 @@ inline void embree_intersect(RTCScene scene, RTCRayHit& ray) noexcept {
   rtcIntersect1(scene, &context, &ray);
 }
 
+inline void embree_intersect_packet(const int* valid, RTCScene scene, RTCRayHit8& rays) noexcept {
+  RTCIntersectContext context;
+  rtcInitIntersectContext(&context);
+  context.flags = RTC_INTERSECT_CONTEXT_FLAG_COHERENT;
+  rtcIntersect8(valid, scene, &context, &rays);
+}
+
 inline void embree_occluded(RTCScene scene, RTCRay& ray) noexcept {
   RTCIntersectContext context;
   rtcInitIntersectContext(&context);
@@ -27,6 +34,7 @@ inline void embree_occluded(RTCScene scene, RTCRay& ray) noexcept {
 #else
 
 inline void embree_intersect(RTCScene scene, RTCRayHit& ray) noexcept { rtcIntersect1(scene, &ray, nullptr); }
+inline void embree_intersect_packet(const int* valid, RTCScene scene, RTCRayHit8& rays) noexcept { rtcIntersect8(valid, scene, &rays, nullptr); }
 inline void embree_occluded(RTCScene scene, RTCRay& ray) noexcept { rtcOccluded1(scene, &ray, nullptr); }
 
 #endif

@@ -6,6 +6,7 @@
 #include <brdf/error.h>
 
 #include <algorithm>
+#include <array>
 #include <bit>
 #include <cmath>
 #include <cstring>
@@ -14,6 +15,12 @@
 #include <string>
 
 namespace brdf::render {
+
+namespace {
+
+constexpr float largest_part = (1 << 20) - 1;
+
+}  // namespace
 
 struct GeometryStore::Handles {
   RTCDevice device = nullptr;
@@ -45,7 +52,8 @@ struct GeometryStore::Handles {
   }
 };
 
-GeometryStore::GeometryStore() : handles_(std::make_unique<Handles>()) {}
+GeometryStore::GeometryStore()
+    : handles_(std::make_unique<Handles>()), has_packets_(rtcGetDeviceProperty(handles_->device, RTC_DEVICE_PROPERTY_NATIVE_RAY8_SUPPORTED) != 0) {}
 GeometryStore::~GeometryStore() = default;
 GeometryStore::GeometryStore(GeometryStore&&) noexcept = default;
 GeometryStore& GeometryStore::operator=(GeometryStore&&) noexcept = default;
@@ -75,13 +83,13 @@ std::uint32_t GeometryStore::add(const Mesh& mesh, bool flat) {
   triangles_.reserve(triangles_.size() + mesh.triangles.size());
   for (const glm::uvec3& t : mesh.triangles) {
     const Vec3f a = mesh.positions[t.x], e1 = mesh.positions[t.y] - a, e2 = mesh.positions[t.z] - a;
-    Triangle packed{a, e1, e2, normals[t.x], normals[t.y], normals[t.z]};
+    Vec3f n0 = normals[t.x], n1 = normals[t.y], n2 = normals[t.z];
     if (flat) {
       const Vec3f n = glm::cross(e1, e2);
       const float length = glm::length(n);
-      packed.n0 = packed.n1 = packed.n2 = length > 0 ? n / length : Vec3f(0, 0, 1);
+      n0 = n1 = n2 = length > 0 ? n / length : Vec3f(0, 0, 1);
     }
-    triangles_.push_back(packed);
+    triangles_.push_back({a, e1, e2, PackedNormal(n0), PackedNormal(n1), PackedNormal(n2)});
     grow(a);
     grow(mesh.positions[t.y]);
     grow(mesh.positions[t.z]);
@@ -119,7 +127,20 @@ void GeometryStore::commit() {
   }
 }
 
-bool GeometryStore::intersect(const Ray& ray, Hit& hit) const noexcept {
+GeometryStore::PackedNormal::PackedNormal(const Vec3f& n) noexcept : bits_(0) {
+  for (int k = 0; k < 3; ++k) {
+    const auto part = static_cast<std::int64_t>(std::lround(std::clamp(n[k], -1.0f, 1.0f) * largest_part)) + (1 << 20);
+    bits_ |= static_cast<std::uint64_t>(part) << (21 * k);
+  }
+}
+
+Vec3f GeometryStore::PackedNormal::unpack() const noexcept {
+  constexpr std::uint64_t mask = (1U << 21) - 1;
+  const auto part = [this](int k) { return static_cast<float>(static_cast<int>((bits_ >> (21 * k)) & mask) - (1 << 20)); };
+  return Vec3f(part(0), part(1), part(2)) * (1 / largest_part);
+}
+
+Intersection GeometryStore::intersect(const Ray& ray) const noexcept {
   RTCRayHit query;
   query.ray.org_x = ray.origin.x;
   query.ray.org_y = ray.origin.y;
@@ -136,10 +157,54 @@ bool GeometryStore::intersect(const Ray& ray, Hit& hit) const noexcept {
   query.hit.geomID = RTC_INVALID_GEOMETRY_ID;
   query.hit.instID[0] = RTC_INVALID_GEOMETRY_ID;
   embree_intersect(handles_->scene, query);
-  if (query.hit.geomID == RTC_INVALID_GEOMETRY_ID) return false;
-  hit.shape = query.hit.geomID;
-  hit.distance = query.ray.tfar;
-  const Shape& shape = shapes_[hit.shape];
+  if (query.hit.geomID == RTC_INVALID_GEOMETRY_ID) return {};
+  return {query.ray.tfar, query.hit.u, query.hit.v, query.hit.geomID, query.hit.primID};
+}
+
+void GeometryStore::intersect(std::span<const Ray> rays, std::span<Intersection> met) const noexcept {
+  if (!has_packets_) {
+    std::transform(rays.begin(), rays.end(), met.begin(), [this](const Ray& r) { return intersect(r); });
+    return;
+  }
+  alignas(32) std::array<int, packet> valid{};
+  RTCRayHit8 query;
+  for (std::size_t i = 0; i < packet; ++i) {
+    const Ray& ray = rays[std::min(i, rays.size() - 1)];
+    valid[i] = i < rays.size() ? -1 : 0;
+    query.ray.org_x[i] = ray.origin.x;
+    query.ray.org_y[i] = ray.origin.y;
+    query.ray.org_z[i] = ray.origin.z;
+    query.ray.dir_x[i] = ray.direction.x;
+    query.ray.dir_y[i] = ray.direction.y;
+    query.ray.dir_z[i] = ray.direction.z;
+    query.ray.tnear[i] = 0;
+    query.ray.tfar[i] = std::numeric_limits<float>::infinity();
+    query.ray.time[i] = 0;
+    query.ray.mask[i] = ~0U;
+    query.ray.id[i] = 0;
+    query.ray.flags[i] = 0;
+    query.hit.geomID[i] = RTC_INVALID_GEOMETRY_ID;
+    query.hit.instID[0][i] = RTC_INVALID_GEOMETRY_ID;
+  }
+  embree_intersect_packet(valid.data(), handles_->scene, query);
+  for (std::size_t i = 0; i < rays.size(); ++i) {
+    met[i] = {};
+    if (query.hit.geomID[i] == RTC_INVALID_GEOMETRY_ID) continue;
+    met[i] = {query.ray.tfar[i], query.hit.u[i], query.hit.v[i], query.hit.geomID[i], query.hit.primID[i]};
+  }
+}
+
+void GeometryStore::prefetch(const Intersection& met) const noexcept {
+  if (!met.is_hit()) return;
+  const Shape& shape = shapes_[met.shape];
+  if (!(shape.radius > 0)) __builtin_prefetch(&triangles_[shape.first + met.primitive]);
+}
+
+Hit GeometryStore::hit(const Ray& ray, const Intersection& met, bool tangents) const noexcept {
+  Hit hit;
+  hit.shape = met.shape;
+  hit.distance = met.distance;
+  const Shape& shape = shapes_[met.shape];
   Vec3f tangent(0);
   if (shape.radius > 0) {
     const Vec3f from_centre = ray.origin + ray.direction * hit.distance - shape.centre;
@@ -147,16 +212,15 @@ bool GeometryStore::intersect(const Ray& ray, Hit& hit) const noexcept {
     hit.point = shape.centre + hit.normal * shape.radius;
     tangent = Vec3f(hit.normal.z, 0, -hit.normal.x);  // round the axis y
   } else {
-    const std::size_t index = shape.first + query.hit.primID;
-    const Triangle& t = triangles_[index];
-    const float u = query.hit.u, v = query.hit.v, w = 1 - u - v;
+    const Triangle& t = triangles_[shape.first + met.primitive];
+    const float u = met.u, v = met.v, w = 1 - u - v;
     hit.point = t.p0 + t.e1 * u + t.e2 * v;  // closer to the triangle than the ray's own end
     hit.facet = glm::normalize(glm::cross(t.e1, t.e2));
-    const Vec3f n = t.n0 * w + t.n1 * u + t.n2 * v;
+    const Vec3f n = t.n0.unpack() * w + t.n1.unpack() * u + t.n2.unpack() * v;
     const float length2 = glm::dot(n, n);
     hit.normal = length2 > 0 ? n / std::sqrt(length2) : hit.facet;
-    if (shape.first_tangent != no_index) {
-      const Vec3f* corner = &tangents_[shape.first_tangent + 3 * static_cast<std::size_t>(query.hit.primID)];
+    if (tangents && shape.first_tangent != no_index) {
+      const Vec3f* corner = &tangents_[shape.first_tangent + 3 * static_cast<std::size_t>(met.primitive)];
       tangent = corner[0] * w + corner[1] * u + corner[2] * v;
     }
   }
@@ -168,7 +232,7 @@ bool GeometryStore::intersect(const Ray& ray, Hit& hit) const noexcept {
   } else {
     make_frame(hit.normal, hit.tangent, hit.bitangent);
   }
-  return true;
+  return hit;
 }
 
 bool GeometryStore::occluded(const Ray& ray, float distance) const noexcept {
@@ -195,8 +259,9 @@ Vec3f offset_point(const Vec3f& point, const Vec3f& facet, const Vec3f& directio
   Vec3f moved;
   for (int k = 0; k < 3; ++k) {
     const auto step = static_cast<std::int32_t>(units_in_last_place * n[k]);
-    const auto bits = std::bit_cast<std::int32_t>(point[k]) + (point[k] < 0 ? -step : step);
-    moved[k] = std::abs(point[k]) < near_origin ? point[k] + small_step * n[k] : std::bit_cast<float>(bits);
+    const auto bits = std::bit_cast<std::int32_t>(point[k]), sign = bits >> 31;  // -1 below 0
+    const auto near = std::bit_cast<std::int32_t>(point[k] + small_step * n[k]), far = bits + ((step ^ sign) - sign);
+    moved[k] = std::bit_cast<float>(std::abs(point[k]) < near_origin ? near : far);  // of integers: a move, no branch
   }
   return moved;
 }

@@ -34,8 +34,10 @@ Surface load_surface(const fs::path& path, const MaterialFile& options, std::uin
     if (options.prefix) throw Error(ErrorCode::invalid_argument, name + ": 'prefix' is for .brdfc files");
     IngestOptions ingest;
     ingest.position = options.position;
-    return Surface::from_table(std::make_shared<const MeasuredTable>(read_measurement(content, name, ingest)));
+    Measurement measurement = read_measurement(content, name, ingest);
+    return Surface::from_table(std::make_shared<const MeasuredTable>(std::move(measurement), options.incident == IncidentSide::viewer));
   }
+  if (options.incident == IncidentSide::viewer) throw Error(ErrorCode::invalid_argument, name + ": 'incident' is for measured files");
   try {
     if (options.prefix) {
       check_prefix(content, *options.prefix, name);

@@ -20,41 +20,14 @@ namespace {
 
 namespace fs = std::filesystem;
 
-/// Runs `action`; what it throws gets the place in the scene file.
-template <class Action>
-auto at_place(const std::string& place, Action&& action) {
-  try {
-    return action();
-  } catch (const Error& e) {
-    throw Error(e.code(), place + ": " + e.what());
-  }
-}
-
 std::optional<Environment> load_environment(const SceneDescription& scene) {
   if (!scene.environment) return std::nullopt;
   const EnvironmentDescription& e = *scene.environment;
   return at_place(e.place, [&]() -> std::optional<Environment> {
     if (const auto* constant = std::get_if<ConstantEnvironment>(&e.what)) return Environment(constant->radiance);
-    if (const auto* sky = std::get_if<SkyEnvironment>(&e.what)) return Environment(make_sky(sky->sky), sky->turn);
-    const auto& map = std::get<EnvironmentMap>(e.what);
-    Image image = read_image(scene.file.parent_path() / map.file);
-    if (image.width < 2 || image.height < 2) throw Error(ErrorCode::malformed, map.file + ": an environment needs 2 x 2 pixels");
-    for (Vec3f& pixel : image.pixels)
-      for (int c = 0; c < 3; ++c) pixel[c] = std::max(pixel[c] * map.scale, 0.0f);  // filters leave values below 0 behind
-    return Environment(std::move(image), map.turn);
+    const auto* map = std::get_if<EnvironmentMap>(&e.what);
+    return Environment(environment_picture(scene), map ? map->turn : std::get<SkyEnvironment>(e.what).turn);
   });
-}
-
-/// Centre and radius of a transformed sphere, which must stay one.
-SphereShape transformed(const SphereShape& sphere, const ShapeDescription& shape) {
-  const glm::mat3 m(shape.transform);
-  const float scale = glm::length(m[0]);
-  for (int i = 0; i < 3; ++i) {
-    const bool same = std::abs(glm::length(m[i]) - scale) <= 1e-4f * scale;
-    const bool right_angle = std::abs(glm::dot(m[i], m[(i + 1) % 3])) <= 1e-4f * scale * scale;
-    if (!same || !right_angle) throw Error(ErrorCode::malformed, "a sphere takes no transform that makes it an ellipsoid; use a blob");
-  }
-  return {Vec3f(shape.transform * glm::vec4(sphere.centre, 1)), sphere.radius * scale};
 }
 
 void load_shapes(Scene& scene, const SceneLimits& limits, std::vector<AreaLight>& lights) {
@@ -64,7 +37,7 @@ void load_shapes(Scene& scene, const SceneLimits& limits, std::vector<AreaLight>
       scene.material_of.push_back(shape.material);
       scene.light_of.push_back(no_index);
       if (const auto* sphere = std::get_if<SphereShape>(&shape.what)) {
-        const SphereShape moved = transformed(*sphere, shape);
+        const SphereShape moved = transformed_sphere(*sphere, shape);
         scene.geometry.add_sphere(moved.centre, moved.radius);
         return;
       }
@@ -112,12 +85,7 @@ void load_materials(Scene& scene, const LoadOptions& options) {
   for (const auto& [name, file] : options.materials) (void)scene.slot(name);
   for (const ShapeDescription& s : scene.description.shapes) scene.materials[s.material].used = true;
 
-  std::vector<fs::path> folders{scene.description.file.parent_path()};
-  if (options.search) {
-    folders.insert(folders.end(), options.search->begin(), options.search->end());
-  } else {
-    for (const std::string& folder : scene.description.search) folders.push_back(scene.description.file.parent_path() / folder);
-  }
+  const std::vector<fs::path> folders = material_folders(scene.description, options);
   std::vector<std::exception_ptr> failures(described.size());
   std::atomic<std::size_t> next{0};
   const auto work = [&] {
@@ -152,13 +120,47 @@ Camera::Camera(const CameraDescription& c, const FilmDescription& film) : positi
 
 Ray Camera::ray(float x, float y) const noexcept { return {position_, glm::normalize(corner_ + across_ * x + down_ * y)}; }
 
-std::uint32_t Scene::slot(std::string_view name) const {
+std::uint32_t check_slot(const SceneDescription& scene, std::string_view name) {
   std::string names;
-  for (std::size_t i = 0; i < materials.size(); ++i) {
-    if (materials[i].name == name) return static_cast<std::uint32_t>(i);
-    names += (names.empty() ? "" : ", ") + materials[i].name;
+  for (std::size_t i = 0; i < scene.materials.size(); ++i) {
+    if (scene.materials[i].name == name) return static_cast<std::uint32_t>(i);
+    names += (names.empty() ? "" : ", ") + scene.materials[i].name;
   }
-  throw Error(ErrorCode::invalid_argument, description.file.string() + ": no material is called " + ingest::in_quotes(name) + ", there are: " + names);
+  throw Error(ErrorCode::invalid_argument, scene.file.string() + ": no material is called " + ingest::in_quotes(name) + ", there are: " + names);
+}
+
+std::uint32_t Scene::slot(std::string_view name) const { return check_slot(description, name); }
+
+std::vector<fs::path> material_folders(const SceneDescription& scene, const LoadOptions& options) {
+  std::vector<fs::path> folders{scene.file.parent_path()};
+  if (options.search) {
+    folders.insert(folders.end(), options.search->begin(), options.search->end());
+  } else {
+    for (const std::string& folder : scene.search) folders.push_back(scene.file.parent_path() / folder);
+  }
+  return folders;
+}
+
+Image environment_picture(const SceneDescription& scene) {
+  const EnvironmentDescription& e = *scene.environment;
+  if (const auto* sky = std::get_if<SkyEnvironment>(&e.what)) return make_sky(sky->sky);
+  const auto& map = std::get<EnvironmentMap>(e.what);
+  Image image = read_image(scene.file.parent_path() / map.file);
+  if (image.width < 2 || image.height < 2) throw Error(ErrorCode::malformed, map.file + ": an environment needs 2 x 2 pixels");
+  for (Vec3f& pixel : image.pixels)
+    for (int c = 0; c < 3; ++c) pixel[c] = std::max(pixel[c] * map.scale, 0.0f);  // filters leave values below 0 behind
+  return image;
+}
+
+SphereShape transformed_sphere(const SphereShape& sphere, const ShapeDescription& shape) {
+  const glm::mat3 m(shape.transform);
+  const float scale = glm::length(m[0]);
+  for (int i = 0; i < 3; ++i) {
+    const bool same = std::abs(glm::length(m[i]) - scale) <= 1e-4f * scale;
+    const bool right_angle = std::abs(glm::dot(m[i], m[(i + 1) % 3])) <= 1e-4f * scale * scale;
+    if (!same || !right_angle) throw Error(ErrorCode::malformed, "a sphere takes no transform that makes it an ellipsoid; use a blob");
+  }
+  return {Vec3f(shape.transform * glm::vec4(sphere.centre, 1)), sphere.radius * scale};
 }
 
 Scene load_scene(const SceneDescription& description, const LoadOptions& options) {

@@ -9,7 +9,7 @@ constexpr Bounds unit{0, 1};
 std::vector<float> channels(const Vec3f& rgb) { return {rgb.x, rgb.y, rgb.z}; }
 
 MaterialFile read_file(const JsonPlace& p) {
-  p.allow({"type", "file", "prefix", "eval", "position"});
+  p.allow({"type", "file", "prefix", "eval", "position", "incident"});
   MaterialFile m;
   const JsonPlace file = p.at("file");
   if (file.is_array()) {
@@ -25,6 +25,9 @@ MaterialFile read_file(const JsonPlace& p) {
   }
   if (const auto position = p.find("position")) {
     m.position = position->choice({"edge", "centre"}) == 0 ? SamplePosition::edge : SamplePosition::centre;
+  }
+  if (const auto incident = p.find("incident")) {
+    m.incident = incident->choice({"light", "viewer"}) == 0 ? IncidentSide::light : IncidentSide::viewer;
   }
   return m;
 }

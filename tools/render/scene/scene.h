@@ -2,10 +2,13 @@
 // A scene in memory, ready to be rendered.
 #pragma once
 
+#include "image/image.h"
 #include "light/lights.h"
 #include "scene/geometry_store.h"
 #include "scene/scene_description.h"
 #include "surface/surface.h"
+
+#include <brdf/error.h>
 
 #include <filesystem>
 #include <map>
@@ -69,6 +72,28 @@ Surface load_surface(const std::filesystem::path& path, const MaterialFile& opti
 /// The first of `material.files` that exists: as it is where absolute, else in each of the folders.
 /// Throws Error(io) that names the folders.
 std::filesystem::path find_material(const MaterialFile& material, const std::vector<std::filesystem::path>& folders);
+
+/// Folders in which the scene's material files are looked for.
+std::vector<std::filesystem::path> material_folders(const SceneDescription& scene, const LoadOptions& options);
+
+/// Throws Error(invalid_argument), with the names there are, where no material of the scene has this name. Returns its index.
+std::uint32_t check_slot(const SceneDescription& scene, std::string_view name);
+
+/// The scene's environment, a map or a sky, as the picture that lights it, before it is turned. Throws Error of read_image.
+Image environment_picture(const SceneDescription& scene);
+
+/// Centre and radius of a sphere after its transform, which must keep it one: throws Error(malformed).
+SphereShape transformed_sphere(const SphereShape& sphere, const ShapeDescription& shape);
+
+/// Runs `action`; what it throws gets the place in the scene file.
+template <class Action>
+auto at_place(const std::string& place, Action&& action) {
+  try {
+    return action();
+  } catch (const Error& e) {
+    throw Error(e.code(), place + ": " + e.what());
+  }
+}
 
 /// The mesh that a description stands for, transformed and checked. Spheres have none.
 Mesh load_mesh(const ShapeDescription& shape, const std::filesystem::path& folder, const MeshLimits& limits);

@@ -37,12 +37,16 @@ struct PathDescription {
   int roulette_depth = 4;  ///< vertices before Russian roulette begins
 };
 
+/// Which of the two directions is the incident one of a measured file, theta_i of RGL's.
+enum class IncidentSide { light, viewer };
+
 /// A measured or a compressed file, told apart by content; the first of `files` that is found is taken.
 struct MaterialFile {
   std::vector<std::string> files;
   std::optional<std::uint64_t> prefix;             ///< read only these first bytes of a `.brdfc` file
   EvalLevel level = EvalLevel::balanced;           ///< of a `.brdfc` file
   SamplePosition position = SamplePosition::edge;  ///< of a MERL table
+  IncidentSide incident = IncidentSide::light;     ///< of a measured file
 };
 
 struct MaterialDescription {

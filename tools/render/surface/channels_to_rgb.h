@@ -26,10 +26,16 @@ class ChannelsToRgb {
   /// Colours outside the gamut are clipped to 0: reflectance below 0 would make light of nothing elsewhere.
   template <class Float>
   Vec3f operator()(std::span<const Float> values) const noexcept {
+    const Vec3f rgb = unclipped(values);
+    return is_identity() ? rgb : Vec3f(std::max(rgb.x, 0.0f), std::max(rgb.y, 0.0f), std::max(rgb.z, 0.0f));
+  }
+  /// The map itself.
+  template <class Float>
+  Vec3f unclipped(std::span<const Float> values) const noexcept {
     if (is_identity()) return {static_cast<float>(values[0]), static_cast<float>(values[1]), static_cast<float>(values[2])};
     Vec3f rgb(0);
     for (std::size_t c = 0; c < columns_.size(); ++c) rgb += columns_[c] * static_cast<float>(values[c]);
-    return {std::max(rgb.x, 0.0f), std::max(rgb.y, 0.0f), std::max(rgb.z, 0.0f)};
+    return rgb;
   }
 
  private:

@@ -22,13 +22,16 @@ Material compressed_copy(const Measurement& measurement) {
 
 }  // namespace
 
-MeasuredTable::MeasuredTable(Measurement measurement)
+MeasuredTable::MeasuredTable(Measurement measurement, bool exchanged)
     : measurement_(std::move(measurement)),
       interpolator_(measurement_),
       rgb_(measurement_.channels),
-      proxy_(compressed_copy(measurement_)) {}
+      proxy_(compressed_copy(measurement_)),
+      exchanged_(exchanged) {}
 
-Vec3f MeasuredTable::eval(const Vec3f& wi, const Vec3f& wo) const noexcept {
+Vec3f MeasuredTable::eval(const Vec3f& towards_light, const Vec3f& towards_viewer) const noexcept {
+  const Vec3f& wi = exchanged_ ? towards_viewer : towards_light;
+  const Vec3f& wo = exchanged_ ? towards_light : towards_viewer;
   std::array<double, max_channels> values;
   const std::span<double> used = std::span(values).first(static_cast<std::size_t>(rgb_.channels()));
   if (interpolator_.eval(Vec3d(wi), Vec3d(wo), used)) return rgb_(std::span<const double>(used));

@@ -17,7 +17,10 @@ class MeasuredTable {
  public:
   /// Compresses a copy at effort 0, which takes some seconds. Throws Error: unsupported (more than max_channels), no_data and
   /// what `compress` throws.
-  explicit MeasuredTable(Measurement measurement);
+  ///
+  /// `exchanged`: light and viewer change places in every look-up. Measured data need not be reciprocal, and other programs take
+  /// the file's incident direction for the viewer's.
+  explicit MeasuredTable(Measurement measurement, bool exchanged = false);
 
   static constexpr std::size_t max_channels = 1024;
 
@@ -32,6 +35,7 @@ class MeasuredTable {
   MeasurementInterpolator interpolator_;
   ChannelsToRgb rgb_;
   Material proxy_;
+  bool exchanged_;
 };
 
 /// RGB of a material's channels, without allocation.

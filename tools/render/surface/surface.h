@@ -52,6 +52,9 @@ class Surface {
   /// Whether eval can be other than 0.
   bool has_values() const noexcept { return kind_ != Kind::black && (flags_ & sample_delta) == 0; }
 
+  /// Whether turning about the normal may matter; what is known to look the same from all sides needs no tangent of the mesh.
+  bool has_grain() const noexcept { return kind_ == Kind::material || kind_ == Kind::table || proposal_.material() != nullptr; }
+
   const Proposal& proposal() const noexcept { return proposal_; }
   /// The measured table that it evaluates; null for all others.
   const MeasuredTable* table() const noexcept { return table_.get(); }
