@@ -2,16 +2,14 @@
 // brdf-query: asks a brdfd what brdf-compress asks a file.
 #include "connection.h"
 #include "messages.h"
+#include "parse_arguments.h"
 #include "run_program.h"
 #include "shared/error_table.h"
-#include "standard_output.h"
 #include "verbs.h"
 
 #include <brdf/version.h>
 
-#include <algorithm>
 #include <array>
-#include <sstream>
 
 namespace {
 
@@ -42,17 +40,7 @@ ExitCode run(int argc, char** argv) {
                          add_eval(program, connection), add_sample(program, connection),  add_pdf(program, connection),
                          add_similar(program, connection), add_compress(program, connection), add_health(program, connection)};
   try {
-    program.parse(argc, argv);
-    return std::find_if(verbs.begin(), verbs.end(), [](const Verb& v) { return v.app->parsed(); })->run();
-  } catch (const CLI::ParseError& e) {
-    if (e.get_exit_code() != 0) {
-      cli::complain(std::string(e.what()) + "; see brdf-query --help");
-      return ExitCode::usage;
-    }
-    std::ostringstream text;  // --help or --version
-    program.exit(e, text, text);
-    cli::print(text.str());
-    return ExitCode::ok;
+    return cli::parse_and_run(program, {argv + 1, argv + argc}, [&verbs] { return cli::run_chosen(verbs); });
   } catch (const client::CallError& e) {
     cli::complain(e.what());
     return exit_code_of(e);

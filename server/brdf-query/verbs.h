@@ -2,20 +2,12 @@
 // One function a verb: adds itself to the program and says what runs it.
 #pragma once
 
-#include "exit_codes.h"
-
-#include <CLI/CLI.hpp>
-
-#include <functional>
+#include "verb.h"
 
 namespace brdf::query {
 
 struct Connection;
-
-struct Verb {
-  CLI::App* app;
-  std::function<cli::ExitCode()> run;
-};
+using cli::Verb;
 
 Verb add_list(CLI::App& program, const Connection& connection);
 Verb add_info(CLI::App& program, const Connection& connection);

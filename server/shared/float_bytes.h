@@ -40,4 +40,11 @@ inline void store_floats(std::span<const float> values, std::string& bytes, std:
   }
 }
 
+/// The floats of `bytes` where they lie; null where the machine's are others, or where they are not aligned.
+inline const float* floats_in_place(std::string_view bytes) noexcept {
+  const bool aligned = reinterpret_cast<std::uintptr_t>(bytes.data()) % alignof(float) == 0;
+  return std::endian::native == std::endian::little && aligned ? reinterpret_cast<const float*>(bytes.data()) : nullptr;
+}
+inline float* floats_in_place(std::string& bytes) noexcept { return const_cast<float*>(floats_in_place(std::string_view(bytes))); }
+
 }  // namespace brdf::service

@@ -1,9 +1,11 @@
 // SPDX-License-Identifier: Apache-2.0
 // Any bytes as the requests of the service, as they come from the wire: refused with a sentence, or answered with as many
-// numbers as were asked for, all of them finite. The first byte chooses the request.
+// numbers as were asked for, all of them finite; lists go on to their end. The first byte chooses the request.
 #include "compress/compress_job.h"
 #include "query/batch.h"
+#include "rpc/answers.h"
 #include "rpc/download.h"
+#include "rpc/material_message.h"
 #include "shared/float_bytes.h"
 #include "shared/material_name.h"
 #include "support/golden_bytes.h"
@@ -75,17 +77,61 @@ void compress(const std::string& wire) {
   if (request.ParseFromString(wire)) check_compress_options(request.options());
 }
 
+const Catalogue& catalogue() {
+  static const Catalogue c = [] {
+    std::vector<VersionHandle> materials;
+    for (const test::GoldenFile& f : test::golden_files()) materials.push_back(verify_version(f.name, f.bytes));
+    return Catalogue(std::move(materials));
+  }();
+  return c;
+}
+
+void list(const std::string& wire) {
+  v1::ListMaterialsRequest request;
+  if (!request.ParseFromString(wire)) return;
+  constexpr std::uint64_t max_bytes = 2000;
+  std::string last = request.page_token();
+  for (std::size_t pages = 0;; ++pages) {
+    check_list(request);
+    v1::ListMaterialsResponse page;
+    require(list_page(catalogue(), request, max_bytes, page, [] { return false; }));
+    require(page.total() == catalogue().materials().size() && pages <= catalogue().materials().size());
+    for (const v1::Material& m : page.materials()) {
+      const std::string id = parse_material_name(m.name()).value().id;
+      require(id > last && id.find(request.name_contains()) != std::string::npos);
+      last = id;
+    }
+    if (page.next_page_token().empty()) return;
+    require(page.next_page_token() == last && page.materials_size() > 0);
+    request.set_page_token(page.next_page_token());
+  }
+}
+
+/// The uploaded file of a question for similar materials.
+void similar(const std::string& wire) {
+  v1::FindSimilarRequest request;
+  if (!request.ParseFromString(wire) || !request.has_file()) return;
+  const auto bytes = std::as_bytes(std::span(request.file()));
+  const VersionHandle upload = verify_version("upload", {bytes.begin(), bytes.end()});
+  for (const float d : upload->descriptor) require(std::isfinite(d));
+  v1::Material message;
+  fill(message, *upload);
+  require(!message.SerializeAsString().empty());
+}
+
 }  // namespace
 
 extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size) {
   if (size == 0) return 0;
   const std::string wire(reinterpret_cast<const char*>(data + 1), size - 1);
   try {
-    switch (data[0] % 4) {
+    switch (data[0] % 6) {
       case 0: evaluate(wire); break;
       case 1: albedo(wire); break;
       case 2: download(wire); break;
       case 3: compress(wire); break;
+      case 4: list(wire); break;
+      case 5: similar(wire); break;
     }
   } catch (const Error&) {
   }

@@ -59,6 +59,18 @@ TEST(ChildProcess, SignalsTimeAndStop) {
   EXPECT_LT(std::chrono::steady_clock::now() - start, 30s);
 }
 
+TEST(ChildProcess, FloodsDoNotOutlastTheTime) {
+  for (const char* flood : {"exec cat /dev/zero >&3", "exec cat /dev/zero >&2", "yes >&3 & yes >&2; true"}) {
+    ChildLimits l;
+    l.time = 300ms;
+    const auto start = std::chrono::steady_clock::now();
+    const ChildResult r = shell(flood, l);
+    EXPECT_EQ(r.end, End::timed_out) << flood;
+    EXPECT_LT(std::chrono::steady_clock::now() - start, 30s) << flood;
+    EXPECT_LE(r.errors.size(), 4096U);
+  }
+}
+
 TEST(ChildProcess, FileSizes) {
   test::TemporaryFolder folder;
   ChildLimits l = minute();

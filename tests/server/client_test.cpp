@@ -2,6 +2,7 @@
 // Replicas, retries and the cache of the client.
 #include "client/file_cache.h"
 #include "client/replicas.h"
+#include "server/batch.h"
 #include "server/daemon_fixture.h"
 #include "shared/content_hash.h"
 #include "shared/error_table.h"
@@ -87,6 +88,36 @@ TEST(Client, AsksAnotherReplicaWhenOneIsGone) {
     two.daemon.reset();
     EXPECT_THROW(client.get("materials/m0"), CallError);
   }
+}
+
+TEST(Client, StreamsGoOnAtAnotherReplica) {
+  test::Served one, two;
+  for (test::Served* s : {&one, &two}) {
+    s->put("a", test::golden("rgb-slices"));
+    s->start();
+  }
+  ClientOptions options;
+  options.servers = {one.settings.listen[0], two.settings.listen[0]};
+  Client client(options);
+  const test::Batch batch(300);
+  const std::string expected = client.evaluate(batch.request).values();
+  std::uint64_t asked = 0, answered = 0;
+  client.evaluate_stream(
+      [&](v1::EvaluateRequest& r) {
+        r = batch.request;
+        return asked++ < 150;
+      },
+      [&](std::uint64_t id, const v1::EvaluateResponse& r) {
+        EXPECT_EQ(id, answered++);
+        EXPECT_EQ(r.values(), expected);
+        if (answered == 20) one.daemon.reset();
+        if (answered == 60) one.start();
+        if (answered == 100) two.daemon.reset();
+      },
+      std::chrono::seconds(30));
+  EXPECT_EQ(answered, 150U);
+  one.daemon.reset();
+  EXPECT_THROW(client.evaluate_stream([&](v1::EvaluateRequest& r) { return r = batch.request, true; }, [](std::uint64_t, const v1::EvaluateResponse&) { FAIL(); }, std::chrono::seconds(30)), CallError);
 }
 
 TEST(Client, FetchesPrefixesAndOpensThem) {

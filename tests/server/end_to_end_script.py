@@ -27,6 +27,9 @@ def daemon(*flags, environment=None):
         (folder / "materials").mkdir()
         shutil.copy(compressed(), folder / "materials" / "gold.brdfc")
         address = f"unix:{folder}/socket"
+        # A sanitizer reserves more addresses than any limit allows.
+        if os.environ.get("BRDF_SANITIZE"):
+            flags = ("--compress-memory-bytes", 0, *flags)
         process = subprocess.Popen(
             [BRDFD, "--repository", folder / "materials", "--listen", address, "--drain-delay-seconds", "0.2",
              "--poll-interval-seconds", "0.1", "--log-level", "warning", *map(str, flags)],

@@ -15,12 +15,13 @@ using namespace brdf::service;
 /// Keeps a worker busy until it is let go.
 struct Gate {
   void hold(WorkerPool& pool, std::uint64_t cost = 1) {
-    std::promise<void> begun;
-    ASSERT_TRUE(pool.submit(cost, [this, &begun] {
-      begun.set_value();
-      open.get_future().wait();
+    // The job outlives what is on the stack here: it holds both ends itself.
+    const auto begun = std::make_shared<std::promise<void>>();
+    ASSERT_TRUE(pool.submit(cost, [begun, opened = open.get_future().share()] {
+      begun->set_value();
+      opened.wait();
     }));
-    begun.get_future().wait();
+    begun->get_future().wait();
   }
   std::promise<void> open;
 };
@@ -49,6 +50,26 @@ TEST(WorkerPool, RunsWhatIsQueuedBeforeItEnds) {
     gate.open.set_value();
   }
   EXPECT_EQ(runs, 100);
+}
+
+TEST(WorkerPool, RunsHereOnlyWhereNothingWaitsOrRuns) {
+  WorkerPool pool(1, 100);
+  std::thread::id where;
+  std::uint64_t load = 0;
+  bool second = true;
+  EXPECT_TRUE(pool.run_if_idle(7, [&] {
+    where = std::this_thread::get_id();
+    load = pool.load();
+    second = pool.run_if_idle(1, [] {});
+  }));
+  EXPECT_EQ(where, std::this_thread::get_id());
+  EXPECT_EQ(load, 7U) << "it counts while it runs";
+  EXPECT_FALSE(second);
+  EXPECT_EQ(pool.load(), 0U);
+  Gate gate;
+  gate.hold(pool);
+  EXPECT_FALSE(pool.run_if_idle(1, [] { FAIL(); }));
+  gate.open.set_value();
 }
 
 v1::EvaluateRequest request(std::uint32_t count) {
@@ -88,6 +109,44 @@ TEST(Overload, IsRefusedAtOnceWithPushback) {
   test::Context again;
   EXPECT_TRUE(s.stub->Evaluate(&again, request(200), &response).ok());
   EXPECT_NE(serving.metrics.text().find("brdfd_refused_total{reason=\"queue\"} 1"), std::string::npos);
+}
+
+TEST(Overload, BriefCallsAreRefusedLikeOthers) {
+  test::Served s;
+  s.settings.workers = 1;
+  s.settings.max_batch_queries = 1000;
+  s.settings.queue_queries = 1000;
+  s.put("a", test::golden("rgb-lobes"));
+  Serving& serving = s.start().serving();
+  v1::EvaluateResponse response;
+  for (int i = 0; i < 2; ++i) {  // the second finds the tables ready
+    test::Context context;
+    EXPECT_TRUE(s.stub->Evaluate(&context, request(10), &response).ok());
+  }
+  Gate gate;
+  gate.hold(serving.workers, 995);
+  test::Context context;
+  EXPECT_EQ(s.stub->Evaluate(&context, request(10), &response).error_code(), grpc::StatusCode::RESOURCE_EXHAUSTED);
+  gate.open.set_value();
+}
+
+TEST(Drain, EndsStreamsThatNobodyWritesTo) {
+  test::Served s;
+  s.settings.drain_timeout_seconds = 60;
+  s.put("a", test::golden("rgb-lobes"));
+  Daemon& daemon = s.start();
+  test::Context context(std::chrono::seconds(60));
+  const auto stream = s.stub->EvaluateStream(&context);
+  v1::EvaluateStreamRequest message;
+  *message.mutable_request() = request(10);
+  v1::EvaluateStreamResponse answer;
+  ASSERT_TRUE(stream->Write(message));
+  ASSERT_TRUE(stream->Read(&answer));
+  const auto start = std::chrono::steady_clock::now();
+  daemon.drain(false);
+  EXPECT_LT(std::chrono::steady_clock::now() - start, std::chrono::seconds(20));
+  EXPECT_FALSE(stream->Read(&answer));
+  EXPECT_EQ(stream->Finish().error_code(), grpc::StatusCode::UNAVAILABLE);
 }
 
 TEST(Deadline, WhatExpiredInTheQueueIsNotWorkedOn) {

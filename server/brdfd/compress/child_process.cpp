@@ -68,16 +68,17 @@ void limit(int resource, std::uint64_t value) noexcept {
   ::_exit(127);
 }
 
-/// Moves what is there from a pipe to `text`; false at its end.
+/// Moves what is there from a pipe to `text`, and not for ever where somebody goes on writing; false at its end.
 bool drain(int fd, std::string& text, std::size_t most) {
   std::array<char, 4096> buffer;
-  for (;;) {
+  for (int reads = 0; reads < 64; ++reads) {
     const ::ssize_t n = ::read(fd, buffer.data(), buffer.size());
     if (n < 0 && errno == EINTR) continue;
     if (n < 0) return errno == EAGAIN;
     if (n == 0) return false;
     text.append(buffer.data(), std::min(static_cast<std::size_t>(n), most - std::min(most, text.size())));
   }
+  return true;
 }
 
 void hand_lines(std::string& text, const std::function<void(const std::string&)>& on_line) {

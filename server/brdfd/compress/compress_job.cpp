@@ -3,6 +3,8 @@
 
 #include "base/file_io.h"
 #include "query/batch.h"
+#include "query/field_error.h"
+#include "shared/excerpt.h"
 #include "shared/material_name.h"
 
 #include <brdf/error.h>
@@ -48,12 +50,12 @@ void hand_progress(const std::string& line, const std::function<void(const std::
 
 void check_compress_options(const v1::CompressOptions& o) {
   const auto name = parse_material_name(o.name());
-  if (!name || !name->version.empty()) throw refuse("name is '" + o.name() + "', wanted is materials/{material}");
-  if (o.has_effort() && (o.effort() < 0 || o.effort() > 100)) throw refuse("effort is " + std::to_string(o.effort()) + ", allowed is 0 to 100");
-  if (o.has_target_size() && o.target_size() == 0) throw refuse("target_size is 0, allowed is at least 1");
+  if (!name || !name->version.empty()) throw FieldError("options.name", "is " + excerpt(o.name()) + ", wanted is materials/{material}");
+  if (o.has_effort() && (o.effort() < 0 || o.effort() > 100)) throw FieldError("options.effort", "is " + std::to_string(o.effort()) + ", allowed is 0 to 100");
+  if (o.has_target_size() && o.target_size() == 0) throw FieldError("options.target_size", "is 0, allowed is at least 1");
   if (o.has_target_error()) {
-    if (std::find(metrics.begin(), metrics.end(), o.target_error().metric()) == metrics.end()) throw refuse("target_error.metric is '" + o.target_error().metric() + "', which is no metric");
-    if (!std::isfinite(o.target_error().value()) || o.target_error().value() < 0) throw refuse("target_error.value must be a number of at least 0");
+    if (std::find(metrics.begin(), metrics.end(), o.target_error().metric()) == metrics.end()) throw FieldError("options.target_error.metric", "is " + excerpt(o.target_error().metric()) + ", which is no metric");
+    if (!std::isfinite(o.target_error().value()) || o.target_error().value() < 0) throw FieldError("options.target_error.value", "must be a number of at least 0");
   }
   (void)level_of(o.level());
 }

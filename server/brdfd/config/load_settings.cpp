@@ -3,6 +3,8 @@
 
 #include <brdf/error.h>
 
+#include "base/file_io.h"
+
 #include <toml++/toml.h>
 
 #include <sstream>
@@ -40,26 +42,31 @@ void assign_node(Settings& settings, const Setting& setting, const toml::node& n
   assign(settings, setting, text_of(node, origin), origin);
 }
 
-void read_file(Settings& settings, const std::filesystem::path& file) {
+constexpr std::uint64_t largest_file = std::uint64_t{1} << 20;
+
+}  // namespace
+
+void assign_toml(Settings& settings, std::string_view text, const std::string& name) {
   toml::table table;
   try {
-    table = toml::parse_file(file.string());
+    table = toml::parse(text);
   } catch (const toml::parse_error& e) {
-    throw Error(ErrorCode::invalid_argument, file.string() + ":" + std::to_string(e.source().begin.line) + ": " + std::string(e.description()));
+    throw Error(ErrorCode::invalid_argument, name + ":" + std::to_string(e.source().begin.line) + ": " + std::string(e.description()));
   }
   for (const auto& [key, node] : table) {
-    const std::string origin = file.string() + ":" + std::to_string(node.source().begin.line) + ": " + std::string(key.str());
+    const std::string origin = name + ":" + std::to_string(node.source().begin.line) + ": " + std::string(key.str());
     const Setting* setting = find_setting(key.str());
     if (setting == nullptr) throw Error(ErrorCode::invalid_argument, origin + " is no setting");
     assign_node(settings, *setting, node, origin);
   }
 }
 
-}  // namespace
-
 Settings load_settings(const std::filesystem::path& file, const Environment& environment, const Flags& flags) {
   Settings settings;
-  if (!file.empty()) read_file(settings, file);
+  if (!file.empty()) {
+    const auto bytes = base::read_file(file, largest_file);
+    assign_toml(settings, {reinterpret_cast<const char*>(bytes.data()), bytes.size()}, file.string());
+  }
   for (const Setting& setting : setting_table()) {
     const std::string variable = variable_of(setting);
     if (const auto text = environment(variable)) assign(settings, setting, *text, variable);

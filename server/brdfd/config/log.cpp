@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "config/log.h"
 
+#include "config/quoted.h"
+
 #include <spdlog/sinks/stdout_sinks.h>
 #include <spdlog/spdlog.h>
 
@@ -21,29 +23,12 @@ spdlog::level::level_enum level_of(Severity s) noexcept {
   return spdlog::level::err;
 }
 
-/// As a JSON string; in text, too, what a terminal obeys must not pass.
-void append_quoted(std::string& out, std::string_view text) {
-  constexpr std::string_view digits = "0123456789abcdef";
-  out += '"';
-  for (const char c : text) {
-    const auto byte = static_cast<unsigned char>(c);
-    if (c == '"' || c == '\\') {
-      (out += '\\') += c;
-    } else if (byte < 0x20 || byte == 0x7f) {
-      ((out += "\\u00") += digits[byte >> 4]) += digits[byte & 15];
-    } else {
-      out += c;
-    }
-  }
-  out += '"';
-}
-
 }  // namespace
 
 std::string format_event(bool json, std::string_view event, std::initializer_list<LogField> fields) {
   std::string out;
   if (json) {
-    append_quoted(out, event);
+    out = quoted(event);
   } else {
     out = event;
   }
@@ -55,7 +40,7 @@ std::string format_event(bool json, std::string_view event, std::initializer_lis
       (out += ' ') += name;
       out += '=';
     }
-    append_quoted(out, value);
+    out += quoted(value);
   }
   return out;
 }

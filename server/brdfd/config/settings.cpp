@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "config/settings.h"
 
+#include "config/quoted.h"
+
 #include <brdf/error.h>
 
 #include <algorithm>
@@ -59,22 +61,8 @@ template <class... Calls>
 struct Choice : Calls... {
   using Calls::operator()...;
 };
-
-std::string quoted(const std::string& text) {
-  constexpr std::string_view digits = "0123456789ABCDEF";
-  std::string out = "\"";
-  for (const char c : text) {
-    const auto byte = static_cast<unsigned char>(c);
-    if (c == '"' || c == '\\') {
-      (out += '\\') += c;
-    } else if (byte < 0x20 || byte == 0x7f) {
-      ((out += "\\u00") += digits[byte >> 4]) += digits[byte & 15];
-    } else {
-      out += c;
-    }
-  }
-  return out + '"';
-}
+template <class... Calls>
+Choice(Calls...) -> Choice<Calls...>;  // clang 14 does not deduce it
 
 template <class Number>
 Number parse_number(std::string_view text, const std::string& origin, const char* wanted) {

@@ -31,6 +31,18 @@ bool WorkerPool::submit(std::uint64_t cost, std::function<void()> job) {
   return true;
 }
 
+bool WorkerPool::run_if_idle(std::uint64_t cost, const std::function<void()>& job) {
+  {
+    const std::lock_guard lock(mutex_);
+    if (load_ != 0) return false;
+    load_ += cost;
+  }
+  job();
+  const std::lock_guard lock(mutex_);
+  load_ -= cost;
+  return true;
+}
+
 std::chrono::milliseconds WorkerPool::expected_wait() const {
   const std::lock_guard lock(mutex_);
   const double seconds = static_cast<double>(load_) * seconds_per_cost_ / static_cast<double>(std::max<std::size_t>(threads_.size(), 1));

@@ -26,6 +26,10 @@ class WorkerPool {
   /// False where the queue is full. One job is always taken when nothing is there, however large. `job` must not throw.
   bool submit(std::uint64_t cost, std::function<void()> job);
 
+  /// Runs `job` here and now where nothing waits or runs; false otherwise. It counts as if a worker ran it, so that at most one such job
+  /// runs at a time and what comes meanwhile is queued. For jobs that take less time than waking a worker. `job` must not throw.
+  bool run_if_idle(std::uint64_t cost, const std::function<void()>& job);
+
   /// How long what is there takes, by the pace of the last jobs: 10 ms to 2 s.
   std::chrono::milliseconds expected_wait() const;
 

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "repository/material_version.h"
 
+#include "query/field_error.h"
 #include "shared/content_hash.h"
 
 #include <brdf/error.h>
@@ -21,7 +22,7 @@ std::uint64_t MaterialVersion::cut_at(std::uint64_t prefix_bytes) const {
   if (std::find(boundaries.begin(), boundaries.end(), prefix_bytes) == boundaries.end()) {
     std::string allowed;
     for (const std::uint64_t end : boundaries) allowed += (allowed.empty() ? "" : ", ") + std::to_string(end);
-    throw Error(ErrorCode::invalid_argument, "prefix_bytes is " + std::to_string(prefix_bytes) + ", but refinements of " + id + " end at " + allowed);
+    throw FieldError("prefix_bytes", "is " + std::to_string(prefix_bytes) + ", but refinements of " + id + " end at " + allowed);
   }
   return prefix_bytes;
 }

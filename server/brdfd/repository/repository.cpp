@@ -27,6 +27,11 @@ void Repository::require_manual() const {
   if (mode_ != RepositoryMode::manual) throw Error(ErrorCode::invalid_argument, "repository_mode is not explicit: the folder says what is loaded");
 }
 
+void Repository::require_room(const Catalogue& catalogue, const std::string& id) const {
+  if (catalogue.find(id) || catalogue.materials().size() < limits_.max_materials) return;
+  throw Error(ErrorCode::limit_exceeded, "max_materials is " + std::to_string(limits_.max_materials));
+}
+
 VersionHandle Repository::read_version(const std::string& id, Seen& seen) const {
   seen.refused.clear();
   RepositoryFolder::Content content = folder_.read(id, limits_.decode.max_file_bytes);
@@ -98,9 +103,7 @@ VersionHandle Repository::load(const std::string& id) {
   require_manual();
   const std::lock_guard lock(changing_);
   const CatalogueHandle old = current_.get();
-  if (!old->find(id) && old->materials().size() >= limits_.max_materials) {
-    throw Error(ErrorCode::limit_exceeded, "max_materials is " + std::to_string(limits_.max_materials));
-  }
+  require_room(*old, id);
   Seen seen;
   const VersionHandle version = read_version(id, seen);
   seen_[id] = seen;
@@ -121,6 +124,7 @@ bool Repository::unload(const std::string& id) {
 VersionHandle Repository::publish(const std::string& id, std::vector<std::byte> bytes, bool overwrite) {
   VersionHandle version = verify_version(id, std::move(bytes));
   const std::lock_guard lock(changing_);
+  require_room(*current_.get(), id);
   folder_.write(id, version->bytes, overwrite);
   seen_.erase(id);  // the next look reads it again and finds the same version
   replace_one(id, version);

@@ -63,6 +63,8 @@ class Repository {
   };
 
   void require_manual() const;
+  /// Throws Error(limit_exceeded) where `id` would be one too many.
+  void require_room(const Catalogue& catalogue, const std::string& id) const;
   VersionHandle read_version(const std::string& id, Seen& seen) const;
   void swap(std::vector<VersionHandle> sorted);
   void replace_one(const std::string& id, VersionHandle version);

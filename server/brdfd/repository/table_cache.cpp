@@ -52,6 +52,14 @@ Material TableCache::get(const VersionHandle& version, EvalLevel level, std::uin
   return *material;
 }
 
+std::optional<Material> TableCache::find(const MaterialVersion& version, EvalLevel level, std::uint64_t bytes, bool sampling) {
+  const std::lock_guard lock(mutex_);
+  const auto at = entries_.find(Key{version.version, level, bytes, sampling});
+  if (at == entries_.end() || !at->second.material) return std::nullopt;
+  order_.splice(order_.begin(), order_, at->second.used);
+  return at->second.material;
+}
+
 void TableCache::drop_to_budget(const Key& keep) {
   while (bytes_ > budget_ && !order_.empty() && order_.back() != keep) {
     const auto oldest = entries_.find(order_.back());

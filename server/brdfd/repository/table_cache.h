@@ -22,6 +22,9 @@ class TableCache {
   /// The material of the first `bytes` bytes (MaterialVersion::cut_at), prepared so. Of several that ask for the same at once, one builds and the others wait. Throws Error.
   Material get(const VersionHandle& version, EvalLevel level, std::uint64_t bytes, bool sampling);
 
+  /// The same where it is complete; builds and waits for nothing.
+  std::optional<Material> find(const MaterialVersion& version, EvalLevel level, std::uint64_t bytes, bool sampling);
+
   std::uint64_t bytes() const;
   std::uint64_t budget() const noexcept { return budget_; }
   std::uint64_t built() const;    ///< since the start

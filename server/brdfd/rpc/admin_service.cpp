@@ -2,17 +2,23 @@
 #include "rpc/admin_service.h"
 
 #include "config/log.h"
+#include "query/field_error.h"
 #include "rpc/pooled_call.h"
+#include "shared/excerpt.h"
 #include "shared/material_name.h"
+
+#include <algorithm>
+#include <span>
 
 namespace brdf::service {
 namespace {
 
 constexpr std::uint64_t load_cost = 1000;
+constexpr std::size_t most_told = 1000;  // files that were refused, of an answer that must fit into a message
 
 std::string id_of(const std::string& name) {
   const auto parsed = parse_material_name(name);
-  if (!parsed || !parsed->version.empty()) throw Error(ErrorCode::invalid_argument, "name is '" + name.substr(0, 160) + "', wanted is materials/{material}");
+  if (!parsed || !parsed->version.empty()) throw FieldError("name", "is " + excerpt(name) + ", wanted is materials/{material}");
   return parsed->id;
 }
 
@@ -44,7 +50,7 @@ grpc::ServerUnaryReactor* AdminServiceImpl::LoadMaterial(Context* context, const
 grpc::ServerUnaryReactor* AdminServiceImpl::UnloadMaterial(Context* context, const v1::UnloadMaterialRequest* request, v1::UnloadMaterialResponse*) {
   return start_pooled(serving_, Method::unload_material, Role::admin, context, [&]() -> PlannedCall {
     return {load_cost, [this, id = id_of(request->name())](const Call&) {
-              if (!serving_.repository.unload(id)) throw StatusError(grpc::StatusCode::NOT_FOUND, material_name(id) + " is not loaded");
+              if (!serving_.repository.unload(id)) throw StatusError(grpc::StatusCode::NOT_FOUND, "MATERIAL_NOT_FOUND", material_name(id) + " is not loaded");
               log_event(Severity::info, "material.unloaded", {{"material", id}});
               return true;
             }};
@@ -59,10 +65,10 @@ grpc::ServerUnaryReactor* AdminServiceImpl::ReloadRepository(Context* context, c
               response->set_added(result.added);
               response->set_replaced(result.replaced);
               response->set_removed(result.removed);
-              for (const Refusal& r : result.refused) {
+              for (const Refusal& r : std::span(result.refused).first(std::min(result.refused.size(), most_told))) {
                 v1::RefusedFile* refused = response->add_refused();
                 refused->set_name(material_name(r.id));
-                refused->set_reason(r.reason);
+                refused->set_reason(utf8_prefix(r.reason, 1024));
               }
               return true;
             }};

@@ -8,6 +8,10 @@
 namespace brdf::service {
 
 /// Requests and responses must live until the call ends. Each throws what a call may end with.
+void check_list(const v1::ListMaterialsRequest& request);
+/// A page of at most `max_bytes` and one material more. False when stopped. Precondition: `request` passed check_list.
+bool list_page(const Catalogue& catalogue, const v1::ListMaterialsRequest& request, std::uint64_t max_bytes, v1::ListMaterialsResponse& response, const Stop& stop);
+
 PlannedCall plan_list(Serving& serving, const v1::ListMaterialsRequest& request, v1::ListMaterialsResponse& response);
 PlannedCall plan_get(Serving& serving, const v1::GetMaterialRequest& request, v1::GetMaterialResponse& response);
 PlannedCall plan_evaluate(Serving& serving, const v1::EvaluateRequest& request, v1::EvaluateResponse& response);

@@ -4,7 +4,6 @@
 #include "rpc/answers.h"
 #include "rpc/compress_call.h"
 #include "rpc/download.h"
-#include "rpc/evaluate_stream.h"
 
 namespace brdf::service {
 
@@ -25,7 +24,7 @@ grpc::ServerUnaryReactor* BrdfServiceImpl::Evaluate(Context* context, const v1::
 }
 
 grpc::ServerBidiReactor<v1::EvaluateStreamRequest, v1::EvaluateStreamResponse>* BrdfServiceImpl::EvaluateStream(Context* context) {
-  return start_evaluate_stream(serving_, context);
+  return streams_.start(serving_, context);
 }
 
 grpc::ServerUnaryReactor* BrdfServiceImpl::Albedo(Context* context, const v1::AlbedoRequest* request, v1::AlbedoResponse* response) {

@@ -3,6 +3,7 @@
 #pragma once
 
 #include "brdf/v1/brdf_service.grpc.pb.h"
+#include "rpc/evaluate_stream.h"
 #include "rpc/serving.h"
 #include "rpc/watch.h"
 
@@ -10,7 +11,7 @@ namespace brdf::service {
 
 class BrdfServiceImpl : public v1::BrdfService::CallbackService {
  public:
-  BrdfServiceImpl(Serving& serving, Watchers& watchers) : serving_(serving), watchers_(watchers) {}
+  BrdfServiceImpl(Serving& serving, Watchers& watchers, EvaluateStreams& streams) : serving_(serving), watchers_(watchers), streams_(streams) {}
 
   using Context = grpc::CallbackServerContext;
   grpc::ServerUnaryReactor* ListMaterials(Context*, const v1::ListMaterialsRequest*, v1::ListMaterialsResponse*) override;
@@ -26,6 +27,7 @@ class BrdfServiceImpl : public v1::BrdfService::CallbackService {
  private:
   Serving& serving_;
   Watchers& watchers_;
+  EvaluateStreams& streams_;
 };
 
 }  // namespace brdf::service

@@ -2,9 +2,13 @@
 #include "rpc/call.h"
 
 #include "config/log.h"
+#include "query/field_error.h"
 #include "shared/error_table.h"
+#include "shared/excerpt.h"
 #include "shared/material_name.h"
 
+#include <algorithm>
+#include <cctype>
 #include <new>
 
 namespace brdf::service {
@@ -13,8 +17,10 @@ namespace {
 constexpr std::string_view bearer = "Bearer ";
 constexpr std::size_t longest_token = 4096;
 
-/// Of a name from outside, what a message needs.
-std::string excerpt(const std::string& text) { return "'" + text.substr(0, 160) + (text.size() > 160 ? "...'" : "'"); }
+std::string upper(std::string text) {
+  std::transform(text.begin(), text.end(), text.begin(), [](unsigned char c) { return static_cast<char>(std::toupper(c)); });
+  return text;
+}
 
 }  // namespace
 
@@ -30,18 +36,18 @@ void Call::require(Role role) const {
   }
   if (!given) {
     serving_.metrics.count_refused("token");
-    throw StatusError(grpc::StatusCode::UNAUTHENTICATED, "this server wants 'authorization: Bearer TOKEN' with a token that it knows");
+    throw StatusError(grpc::StatusCode::UNAUTHENTICATED, "TOKEN_UNKNOWN", "this server wants 'authorization: Bearer TOKEN' with a token that it knows");
   }
   if (*given < role) {
     serving_.metrics.count_refused("token");
-    throw StatusError(grpc::StatusCode::PERMISSION_DENIED, std::string("this call needs the role ") + to_string(role) + ", the token has " + to_string(*given));
+    throw StatusError(grpc::StatusCode::PERMISSION_DENIED, "ROLE_MISSING", std::string("this call needs the role ") + to_string(role) + ", the token has " + to_string(*given));
   }
 }
 
 void Call::overloaded(const char* reason, const std::string& sentence, std::chrono::milliseconds retry) const {
   serving_.metrics.count_refused(reason);
   context_->AddTrailingMetadata("grpc-retry-pushback-ms", std::to_string(retry.count()));
-  throw StatusError(grpc::StatusCode::RESOURCE_EXHAUSTED, sentence);
+  throw StatusError(grpc::StatusCode::RESOURCE_EXHAUSTED, {upper(reason) + "_FULL", {}, retry}, sentence);
 }
 
 bool Call::is_over() const { return context_->IsCancelled() || context_->deadline() <= std::chrono::system_clock::now(); }
@@ -55,15 +61,16 @@ grpc::Status Call::status_of_exception() const {
   try {
     throw;
   } catch (const StatusError& e) {
-    return {e.code(), e.what()};
+    return detailed_status(e.code(), e.what(), e.details());
   } catch (const Error& e) {
     context_->AddTrailingMetadata(error_metadata_key, to_string(e.code()));
-    return {status_of(e.code()), e.what()};
+    const auto* field = dynamic_cast<const FieldError*>(&e);
+    return detailed_status(status_of(e.code()), e.what(), {upper(to_string(e.code())), field == nullptr ? "" : field->field(), {}});
   } catch (const std::bad_alloc&) {
-    return {grpc::StatusCode::RESOURCE_EXHAUSTED, "the server is out of memory"};
+    return detailed_status(grpc::StatusCode::RESOURCE_EXHAUSTED, "the server is out of memory", {"OUT_OF_MEMORY", {}, {}});
   } catch (const std::exception& e) {
     log_event(Severity::error, "call.failed", {{"method", to_string(method_)}, {"reason", e.what()}});
-    return {grpc::StatusCode::INTERNAL, "the server failed"};
+    return detailed_status(grpc::StatusCode::INTERNAL, "the server failed", {"INTERNAL", {}, {}});
   }
 }
 
@@ -75,13 +82,13 @@ void Call::count(const grpc::Status& status) const {
   }
 }
 
-VersionHandle find_version(const Catalogue& catalogue, const std::string& name) {
+VersionHandle find_version(const Catalogue& catalogue, const char* field, const std::string& name) {
   const auto parsed = parse_material_name(name);
-  if (!parsed) throw Error(ErrorCode::invalid_argument, excerpt(name) + " is no name of a material, wanted is materials/{material} or materials/{material}/versions/{version}");
+  if (!parsed) throw FieldError(field, "is " + excerpt(name) + ", which is no name of a material, wanted is materials/{material} or materials/{material}/versions/{version}");
   VersionHandle found = catalogue.find(parsed->id);
-  if (!found) throw StatusError(grpc::StatusCode::NOT_FOUND, "there is no material " + excerpt(name));
+  if (!found) throw StatusError(grpc::StatusCode::NOT_FOUND, "MATERIAL_NOT_FOUND", "there is no material " + excerpt(name));
   if (!parsed->version.empty() && found->version != parsed->version) {
-    throw StatusError(grpc::StatusCode::NOT_FOUND, material_name(parsed->id) + " is served as version " + found->version + ", not as " + parsed->version);
+    throw StatusError(grpc::StatusCode::NOT_FOUND, "VERSION_NOT_FOUND", material_name(parsed->id) + " is served as version " + found->version + ", not as " + parsed->version);
   }
   return found;
 }

@@ -2,6 +2,7 @@
 // What every call has: a role that it needs, a status that the exception of its work becomes, figures.
 #pragma once
 
+#include "rpc/error_details.h"
 #include "rpc/serving.h"
 
 #include <grpcpp/server_context.h>
@@ -15,11 +16,14 @@ namespace brdf::service {
 /// Ends a call with a status that no error of the library stands for.
 class StatusError : public std::runtime_error {
  public:
-  StatusError(grpc::StatusCode code, const std::string& sentence) : std::runtime_error(sentence), code_(code) {}
+  StatusError(grpc::StatusCode code, ErrorDetails details, const std::string& sentence) : std::runtime_error(sentence), code_(code), details_(std::move(details)) {}
+  StatusError(grpc::StatusCode code, const char* reason, const std::string& sentence) : StatusError(code, ErrorDetails{reason, {}, {}}, sentence) {}
   grpc::StatusCode code() const noexcept { return code_; }
+  const ErrorDetails& details() const noexcept { return details_; }
 
  private:
   grpc::StatusCode code_;
+  ErrorDetails details_;
 };
 
 class Call {
@@ -37,8 +41,8 @@ class Call {
   /// Nobody waits any more: cancelled, or the deadline is over.
   bool is_over() const;
   grpc::Status over() const;
-  /// The status of the exception that is being handled; with the library's code in the trailing metadata. To be called
-  /// before Finish.
+  /// The status of the exception that is being handled, with details, and the library's code in the trailing metadata. To be
+  /// called before Finish.
   grpc::Status status_of_exception() const;
 
   /// Counts the call; once.
@@ -51,7 +55,7 @@ class Call {
   std::chrono::steady_clock::time_point start_;
 };
 
-/// The version that a resource name means now. Throws Error(invalid_argument), StatusError(NOT_FOUND).
-VersionHandle find_version(const Catalogue& catalogue, const std::string& name);
+/// The version that a resource name means now. Throws FieldError for `field`, StatusError(NOT_FOUND).
+VersionHandle find_version(const Catalogue& catalogue, const char* field, const std::string& name);
 
 }  // namespace brdf::service

@@ -2,8 +2,11 @@
 #include "rpc/compress_call.h"
 
 #include "config/log.h"
+#include "query/field_error.h"
 #include "rpc/material_message.h"
 #include "shared/material_name.h"
+
+#include <grpcpp/alarm.h>
 
 #include <mutex>
 #include <optional>
@@ -11,15 +14,31 @@
 namespace brdf::service {
 namespace {
 
+/// Of the calls that upload, wait or run: each has a folder that it may fill.
+class Place {
+ public:
+  explicit Place(std::atomic<std::uint64_t>& taken) : taken_(taken), number_(++taken) {}
+  ~Place() { --taken_; }
+  Place(const Place&) = delete;
+  Place& operator=(const Place&) = delete;
+  std::uint64_t number() const noexcept { return number_; }
+
+ private:
+  std::atomic<std::uint64_t>& taken_;
+  std::uint64_t number_;
+};
+
 class CompressCall : public grpc::ServerBidiReactor<v1::CompressRequest, v1::CompressResponse> {
  public:
-  CompressCall(Serving& serving, grpc::CallbackServerContext* context) : call_(serving, Method::compress, context) {
+  CompressCall(Serving& serving, grpc::CallbackServerContext* context) : call_(serving, Method::compress, context), place_(serving.compress_calls) {
     const std::lock_guard lock(mutex_);
+    // An upload that never ends would keep its place for ever.
+    alarm_.Set(std::chrono::system_clock::now() + std::chrono::milliseconds(static_cast<std::int64_t>(serving.settings.compress_seconds * 1000)), [this](bool rang) { on_alarm(rang); });
     try {
       call_.require(Role::compress);
-      if (!serving.compress) throw StatusError(grpc::StatusCode::UNIMPLEMENTED, "this server does not compress");
-      if (serving.compressions.load() >= serving.compressions.capacity()) refuse();
-      StartRead(&request_);
+      if (!serving.compress) throw StatusError(grpc::StatusCode::UNIMPLEMENTED, "COMPRESS_OFF", "this server does not compress");
+      if (place_.number() > serving.compressions.capacity()) refuse();
+      read();
     } catch (...) {
       end(call_.status_of_exception());
     }
@@ -27,6 +46,7 @@ class CompressCall : public grpc::ServerBidiReactor<v1::CompressRequest, v1::Com
 
   void OnReadDone(bool ok) override {
     const std::lock_guard lock(mutex_);
+    reading_ = false;
     if (outcome_) return;
     try {
       Serving& serving = call_.serving();
@@ -37,8 +57,9 @@ class CompressCall : public grpc::ServerBidiReactor<v1::CompressRequest, v1::Com
         }
       } else {
         if (call_.is_over()) return end(call_.over());
-        if (!job_) throw Error(ErrorCode::invalid_argument, "the options are missing, they come first");
+        if (!job_) throw FieldError("options", "are missing, they come first");
         if (!serving.compressions.submit(1, [this] { compress(); })) refuse();
+        uploaded_ = true;
         say_progress("waiting", 0);
       }
     } catch (...) {
@@ -54,14 +75,32 @@ class CompressCall : public grpc::ServerBidiReactor<v1::CompressRequest, v1::Com
   }
 
   void OnDone() override {
-    { const std::lock_guard lock(mutex_); }
-    delete this;
+    alarm_.Cancel();
+    release();
   }
 
  private:
+  void on_alarm(bool rang) {
+    if (rang) {
+      const std::lock_guard lock(mutex_);
+      late_ = !uploaded_;
+      if (late_ && reading_) end_late();  // what is being stored sees it at its end
+    }
+    release();
+  }
+
+  /// The reactor goes when gRPC and the alarm have both let go of it.
+  void release() {
+    {
+      const std::lock_guard lock(mutex_);
+      if (--holders_ != 0) return;
+    }
+    delete this;
+  }
+
   [[noreturn]] void refuse() {
     Serving& s = call_.serving();
-    call_.overloaded("compress", std::to_string(s.compressions.load()) + " compressions run or wait, this server takes " + std::to_string(s.compressions.capacity()), s.compressions.expected_wait());
+    call_.overloaded("compress", std::to_string(s.compress_calls) + " compressions upload, wait or run, this server takes " + std::to_string(s.compressions.capacity()), s.compressions.expected_wait());
   }
 
   // On the thread of uploads.
@@ -69,30 +108,31 @@ class CompressCall : public grpc::ServerBidiReactor<v1::CompressRequest, v1::Com
     std::exception_ptr failed;
     try {
       if (request_.has_options()) {
-        if (job_) throw Error(ErrorCode::invalid_argument, "options came twice");
+        if (job_) throw FieldError("options", "came twice");
         job_.emplace(*call_.serving().compress, request_.options());
         options_ = request_.options();
         check_place();
       } else if (request_.has_chunk()) {
-        if (!job_) throw Error(ErrorCode::invalid_argument, "the options are missing, they come first");
+        if (!job_) throw FieldError("options", "are missing, they come first");
         job_->add(request_.chunk());
       } else {
-        throw Error(ErrorCode::invalid_argument, "a message holds neither options nor a chunk");
+        throw FieldError("part", "is missing: a message holds neither options nor a chunk");
       }
     } catch (...) {
       failed = std::current_exception();
     }
     const std::lock_guard lock(mutex_);
     if (failed) return fail(failed);
+    if (late_) return end_late();
     request_.Clear();
-    StartRead(&request_);
+    read();
   }
 
   /// Before the upload and not only after the work.
   void check_place() const {
     const std::string id = parse_material_name(options_.name())->id;
     if (!options_.overwrite() && call_.serving().repository.catalogue()->find(id)) {
-      throw StatusError(grpc::StatusCode::ALREADY_EXISTS, options_.name() + " exists already; overwrite replaces it");
+      throw StatusError(grpc::StatusCode::ALREADY_EXISTS, "MATERIAL_EXISTS", options_.name() + " exists already; overwrite replaces it");
     }
   }
 
@@ -126,6 +166,16 @@ class CompressCall : public grpc::ServerBidiReactor<v1::CompressRequest, v1::Com
   }
 
   // All below with the mutex held.
+
+  void read() {
+    reading_ = true;
+    StartRead(&request_);
+  }
+
+  void end_late() {
+    end(detailed_status(grpc::StatusCode::DEADLINE_EXCEEDED, "the upload did not end within " + std::to_string(static_cast<std::int64_t>(call_.serving().settings.compress_seconds)) + " s, the limit of this server",
+                        {"UPLOAD_TOO_SLOW", {}, {}}));
+  }
 
   void say_progress(const std::string& stage, double done) {
     progress_.emplace();
@@ -172,7 +222,10 @@ class CompressCall : public grpc::ServerBidiReactor<v1::CompressRequest, v1::Com
   }
 
   Call call_;
+  const Place place_;
   std::mutex mutex_;
+  grpc::Alarm alarm_;
+  int holders_ = 2;
   v1::CompressRequest request_;
   v1::CompressResponse response_;
   v1::CompressOptions options_;
@@ -180,7 +233,7 @@ class CompressCall : public grpc::ServerBidiReactor<v1::CompressRequest, v1::Com
   std::optional<v1::CompressResponse> progress_;
   VersionHandle result_;
   std::optional<grpc::Status> outcome_;
-  bool writing_ = false, finished_ = false;
+  bool reading_ = false, uploaded_ = false, late_ = false, writing_ = false, finished_ = false;
   std::atomic<bool> stop_{false};
 };
 

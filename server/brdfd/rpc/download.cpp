@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "rpc/download.h"
 
+#include "query/field_error.h"
 #include "rpc/material_message.h"
 #include "shared/content_hash.h"
 #include "shared/material_name.h"
@@ -20,10 +21,10 @@ class Download : public grpc::ServerWriteReactor<v1::DownloadMaterialResponse> {
       : call_(serving, Method::download_material, context) {
     try {
       call_.require(Role::read);
-      version_ = find_version(*serving.repository.catalogue(), request.name());
+      version_ = find_version(*serving.repository.catalogue(), "name", request.name());
       end_ = download_end(*version_, request);
       at_ = request.offset();
-      if (at_ > end_) throw StatusError(grpc::StatusCode::OUT_OF_RANGE, "offset is " + std::to_string(at_) + ", this download ends at byte " + std::to_string(end_));
+      if (at_ > end_) throw StatusError(grpc::StatusCode::OUT_OF_RANGE, "OFFSET_BEHIND_END", "offset is " + std::to_string(at_) + ", this download ends at byte " + std::to_string(end_));
       // The checksum costs about as much as a query for every hundred bytes.
       if (!serving.workers.submit(1 + end_ / 100, [this] { begin(); })) {
         call_.overloaded("queue", "this server takes " + std::to_string(serving.workers.capacity()) + " queries at once", serving.workers.expected_wait());
@@ -87,10 +88,10 @@ std::uint64_t download_end(const MaterialVersion& version, const v1::DownloadMat
     if (version.bytes.size() <= request.max_bytes()) return version.bytes.size();
     for (std::size_t i = ends.size(); i-- > 0;)
       if (ends[i] <= request.max_bytes()) return ends[i];
-    throw Error(ErrorCode::invalid_argument, "max_bytes is " + std::to_string(request.max_bytes()) + ", the smallest prefix of " + version.id + " has " + std::to_string(ends.front()));
+    throw FieldError("max_bytes", "is " + std::to_string(request.max_bytes()) + ", the smallest prefix of " + version.id + " has " + std::to_string(ends.front()));
   }
   if (request.has_max_log_mae()) {
-    if (!(request.max_log_mae() >= 0) || !std::isfinite(request.max_log_mae())) throw Error(ErrorCode::invalid_argument, "max_log_mae must be a number of at least 0");
+    if (!(request.max_log_mae() >= 0) || !std::isfinite(request.max_log_mae())) throw FieldError("max_log_mae", "must be a number of at least 0");
     for (std::size_t i = 0; i < ends.size(); ++i) {
       const RecordedError* e = version.error(static_cast<int>(i), EvalLevel::balanced);
       if (e != nullptr && e->log_mae <= request.max_log_mae()) return ends[i];

@@ -6,24 +6,35 @@
 #include <array>
 #include <mutex>
 #include <optional>
+#include <vector>
 
 namespace brdf::service {
-namespace {
 
-class EvaluateStream : public grpc::ServerBidiReactor<v1::EvaluateStreamRequest, v1::EvaluateStreamResponse> {
+class EvaluateStreams::Stream : public grpc::ServerBidiReactor<v1::EvaluateStreamRequest, v1::EvaluateStreamResponse> {
  public:
-  EvaluateStream(Serving& serving, grpc::CallbackServerContext* context) : call_(serving, Method::evaluate_stream, context) {
+  Stream(EvaluateStreams& all, Serving& serving, grpc::CallbackServerContext* context) : all_(all), call_(serving, Method::evaluate_stream, context) {}
+
+  void start(const std::shared_ptr<Stream>& self) {
+    const std::lock_guard lock(mutex_);
+    self_ = self;
     try {
       call_.require(Role::read);
     } catch (...) {
       failure_ = call_.status_of_exception();
     }
-    const std::lock_guard lock(mutex_);
+    if (call_.serving().ending) ending_ = true;
     if (failure_) {
       maybe_finish();
     } else {
       read_next();
+      maybe_finish();
     }
+  }
+
+  void end() {
+    const std::lock_guard lock(mutex_);
+    ending_ = true;
+    maybe_finish();
   }
 
   void OnReadDone(bool ok) override {
@@ -31,7 +42,7 @@ class EvaluateStream : public grpc::ServerBidiReactor<v1::EvaluateStreamRequest,
     reading_ = false;
     if (!ok) {
       reads_ended_ = true;
-    } else if (!failure_) {
+    } else if (!failure_ && !finished_) {
       Slot& slot = slots_[read_at_];
       read_at_ = (read_at_ + 1) % slots_.size();
       ++held_;
@@ -56,8 +67,9 @@ class EvaluateStream : public grpc::ServerBidiReactor<v1::EvaluateStreamRequest,
   }
 
   void OnDone() override {
-    { const std::lock_guard lock(mutex_); }  // whoever finished the call may not have let go of it yet
-    delete this;
+    all_.remove(self_);
+    const std::shared_ptr<Stream> last = std::move(self_);  // whoever ends it may still hold it
+    const std::lock_guard lock(mutex_);  // whoever finished the call may not have let go of it yet
   }
 
  private:
@@ -70,7 +82,7 @@ class EvaluateStream : public grpc::ServerBidiReactor<v1::EvaluateStreamRequest,
   // All below with the mutex held.
 
   void read_next() {
-    if (reading_ || reads_ended_ || failure_ || held_ == slots_.size()) return;
+    if (reading_ || reads_ended_ || failure_ || ending_ || held_ == slots_.size()) return;
     reading_ = true;
     slots_[read_at_].request.Clear();
     StartRead(&slots_[read_at_].request);
@@ -105,9 +117,10 @@ class EvaluateStream : public grpc::ServerBidiReactor<v1::EvaluateStreamRequest,
   }
 
   void maybe_finish() {
-    const bool drained = reads_ended_ && held_ == 0;
+    const bool drained = (reads_ended_ || ending_) && held_ == 0;
     if (finished_ || writing_ || running_ != 0 || !(failure_ || drained)) return;
     finished_ = true;
+    if (ending_ && !reads_ended_ && !failure_) failure_ = grpc::Status(grpc::StatusCode::UNAVAILABLE, "the server ends");
     const grpc::Status status = failure_.value_or(grpc::Status::OK);
     call_.count(status);
     Finish(status);
@@ -131,18 +144,40 @@ class EvaluateStream : public grpc::ServerBidiReactor<v1::EvaluateStreamRequest,
     maybe_finish();
   }
 
+  EvaluateStreams& all_;
   Call call_;
+  std::shared_ptr<Stream> self_;
   std::mutex mutex_;
   std::array<Slot, 4> slots_;
   std::size_t read_at_ = 0, write_at_ = 0, held_ = 0, running_ = 0;  // `held_` slots from write_at_ on are in use
-  bool reading_ = false, writing_ = false, reads_ended_ = false, finished_ = false;
+  bool reading_ = false, writing_ = false, reads_ended_ = false, ending_ = false, finished_ = false;
   std::optional<grpc::Status> failure_;
 };
 
-}  // namespace
+grpc::ServerBidiReactor<v1::EvaluateStreamRequest, v1::EvaluateStreamResponse>* EvaluateStreams::start(Serving& serving, grpc::CallbackServerContext* context) {
+  auto stream = std::make_shared<Stream>(*this, serving, context);
+  add(stream);
+  stream->start(stream);
+  return stream.get();  // it holds itself until OnDone
+}
 
-grpc::ServerBidiReactor<v1::EvaluateStreamRequest, v1::EvaluateStreamResponse>* start_evaluate_stream(Serving& serving, grpc::CallbackServerContext* context) {
-  return new EvaluateStream(serving, context);
+void EvaluateStreams::add(const std::shared_ptr<Stream>& stream) {
+  const std::lock_guard lock(mutex_);
+  streams_.insert(stream);
+}
+
+void EvaluateStreams::remove(const std::shared_ptr<Stream>& stream) {
+  const std::lock_guard lock(mutex_);
+  streams_.erase(stream);
+}
+
+void EvaluateStreams::end() {
+  std::vector<std::shared_ptr<Stream>> now;
+  {
+    const std::lock_guard lock(mutex_);
+    now.assign(streams_.begin(), streams_.end());
+  }
+  for (const auto& stream : now) stream->end();
 }
 
 }  // namespace brdf::service

@@ -34,7 +34,7 @@ struct Metrics::State : prometheus::Collectable {
   std::array<prometheus::Histogram*, method_count> seconds{};
   std::array<prometheus::Counter*, 3> queries{};
   prometheus::Family<prometheus::Counter>* refused = nullptr;
-  prometheus::Counter *downloaded = nullptr, *swapped = nullptr, *bad_files = nullptr;
+  prometheus::Counter *downloaded = nullptr, *swapped = nullptr, *bad_files = nullptr, *cut = nullptr;
   mutable std::mutex mutex;
   std::vector<Gauge> gauges;
 
@@ -68,6 +68,7 @@ Metrics::Metrics() : state_(std::make_shared<State>()) {
   constexpr std::array operations{"evaluate", "pdf", "sample"};
   for (std::size_t i = 0; i < operations.size(); ++i) s.queries[i] = &queries.Add({{"operation", operations[i]}});
   s.refused = &prometheus::BuildCounter().Name("brdfd_refused_total").Help("Calls refused before any work, by reason").Register(s.registry);
+  s.cut = &prometheus::BuildCounter().Name("brdfd_cut_connections_total").Help("Connections ended for a flood of streams").Register(s.registry).Add({});
   s.downloaded = &prometheus::BuildCounter().Name("brdfd_downloaded_bytes_total").Help("Bytes of materials sent").Register(s.registry).Add({});
   s.swapped = &prometheus::BuildCounter().Name("brdfd_material_changes_total").Help("Materials added, replaced or removed").Register(s.registry).Add({});
   s.bad_files = &prometheus::BuildCounter().Name("brdfd_bad_files_total").Help("Files that a look at the repository refused").Register(s.registry).Add({});
@@ -91,6 +92,8 @@ void Metrics::count_queries(std::uint64_t evaluated, std::uint64_t densities, st
 void Metrics::count_bytes_downloaded(std::uint64_t bytes) { state_->downloaded->Increment(static_cast<double>(bytes)); }
 
 void Metrics::count_refused(const char* reason) { state_->refused->Add({{"reason", reason}}).Increment(); }
+
+void Metrics::count_cut() { state_->cut->Increment(); }
 
 void Metrics::count_poll(std::uint32_t swapped, std::size_t refused) {
   state_->swapped->Increment(swapped);

@@ -34,6 +34,7 @@ class Metrics {
   void count_queries(std::uint64_t evaluated, std::uint64_t densities, std::uint64_t samples);
   void count_bytes_downloaded(std::uint64_t bytes);
   void count_refused(const char* reason);  ///< "queue", "token", "compress"
+  void count_cut();                        ///< a connection that was ended for what it did
   void count_poll(std::uint32_t swapped, std::size_t refused);
 
   /// A figure that is asked for when somebody looks.

@@ -4,10 +4,13 @@
 namespace brdf::service {
 namespace {
 
-/// Belongs to gRPC until OnDone and to the job until that ran; request and response live as long as gRPC keeps it.
-class PooledCall : public grpc::ServerUnaryReactor {
+/// Lives until it has finished the call; request and response live as long as gRPC keeps them. The reactor is gRPC's own, whose end
+/// takes no other thread, which a reactor of our own would.
+class PooledCall {
  public:
-  PooledCall(Serving& serving, Method method, grpc::CallbackServerContext* context) : call_(serving, method, context) {}
+  PooledCall(Serving& serving, Method method, grpc::CallbackServerContext* context) : call_(serving, method, context), reactor_(context->DefaultReactor()) {}
+
+  grpc::ServerUnaryReactor* reactor() const noexcept { return reactor_; }
 
   void start(Role role, const std::function<PlannedCall()>& plan) {
     try {
@@ -16,6 +19,7 @@ class PooledCall : public grpc::ServerUnaryReactor {
       answer_ = std::move(planned.answer);
       WorkerPool& workers = call_.serving().workers;
       // Only one of the job and this function finishes the call, so the job may keep a plain pointer.
+      if (planned.brief && workers.run_if_idle(planned.cost, [this] { run(); })) return;
       if (!workers.submit(planned.cost, [this] { run(); })) {
         call_.overloaded("queue", std::to_string(workers.load()) + " queries wait already, this server takes " + std::to_string(workers.capacity()), workers.expected_wait());
       }
@@ -36,12 +40,12 @@ class PooledCall : public grpc::ServerUnaryReactor {
 
   void end(const grpc::Status& status) {
     call_.count(status);
-    Finish(status);  // *this may be gone after it
+    reactor_->Finish(status);
+    delete this;
   }
 
-  void OnDone() override { delete this; }
-
   Call call_;
+  grpc::ServerUnaryReactor* reactor_;
   std::function<bool(const Call&)> answer_;
 };
 
@@ -50,8 +54,9 @@ class PooledCall : public grpc::ServerUnaryReactor {
 grpc::ServerUnaryReactor* start_pooled(Serving& serving, Method method, Role role, grpc::CallbackServerContext* context,
                                        const std::function<PlannedCall()>& plan) {
   auto* call = new PooledCall(serving, method, context);
-  call->start(role, plan);
-  return call;
+  grpc::ServerUnaryReactor* reactor = call->reactor();
+  call->start(role, plan);  // *call may be gone after it
+  return reactor;
 }
 
 }  // namespace brdf::service

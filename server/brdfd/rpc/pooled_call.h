@@ -16,7 +16,11 @@ namespace brdf::service {
 struct PlannedCall {
   std::uint64_t cost = 1;
   std::function<bool(const Call& call)> answer;
+  bool brief = false;  ///< takes some microseconds and waits for nothing: less than waking a worker
 };
+
+/// Queries that a brief call may cost.
+inline constexpr std::uint64_t brief_cost = 64;
 
 /// `plan` runs in the reactor: it only looks at sizes and may throw. Gives what a method of a callback service returns.
 grpc::ServerUnaryReactor* start_pooled(Serving& serving, Method method, Role role, grpc::CallbackServerContext* context,

@@ -61,6 +61,7 @@ struct Serving {
   TableCache tables;
   SimilarMaterials similar;
   std::optional<CompressSetup> compress;  ///< nothing: not served
+  std::atomic<std::uint64_t> compress_calls{0};  ///< that upload, wait or run
   std::atomic<bool> ending{false};        ///< calls without end are to end
   // Threads last: they end before what they use goes.
   WorkerPool workers;

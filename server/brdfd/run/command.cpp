@@ -3,7 +3,9 @@
 
 #include "config/load_settings.h"
 #include "config/log.h"
+#include "run/credentials.h"
 #include "run/daemon.h"
+#include "run/foreign_logs.h"
 #include "run/health_check.h"
 #include "run/notify_systemd.h"
 
@@ -22,7 +24,8 @@ namespace brdf::service {
 namespace {
 
 struct Options {
-  std::string config, health_check, health_check_ca;
+  std::string config;
+  HealthQuestion health;
   bool check = false, print = false;
   std::list<std::pair<const Setting*, std::string>> texts;  // CLI11 keeps references
   Flags flags;
@@ -74,6 +77,7 @@ void wait_for_end(const sigset_t& signals, Daemon& daemon) {
 int serve(const Settings& settings) {
   const sigset_t signals = block_signals();
   start_log(settings.log_level, settings.log_format);
+  route_foreign_logs();
   Daemon daemon(settings);
   std::string line = "brdfd " + std::string(version()) + " ready:";
   for (const std::string& address : daemon.addresses()) line += " " + address;
@@ -104,8 +108,11 @@ int run(int argc, char** argv) {
   app.add_option("--config", o.config, "TOML file of settings");
   app.add_flag("--check-config", o.check, "Say whether the settings are good, and end");
   app.add_flag("--print-config", o.print, "Print the settings as they are together, and end");
-  app.add_option("--health-check", o.health_check, "Ask the daemon at this address, and end")->type_name("ADDR");
-  app.add_option("--health-check-ca", o.health_check_ca, "PEM roots for --health-check with TLS")->type_name("FILE");
+  auto* health = app.add_option("--health-check", o.health.address, "Ask the daemon at this address, and end")->type_name("ADDR");
+  auto* ca = app.add_option("--health-check-ca", o.health.ca, "PEM roots for --health-check with TLS")->type_name("FILE")->needs(health);
+  auto* certificate = app.add_option("--health-check-certificate", o.health.certificate, "PEM certificate to show with mutual TLS")->type_name("FILE")->needs(ca);
+  auto* key = app.add_option("--health-check-key", o.health.key, "PEM key of --health-check-certificate")->type_name("FILE")->needs(certificate);
+  certificate->needs(key);
   add_settings(app, o);
   app.footer(
       "Flags come before variables BRDFD_NAME, these before the TOML file, and it before the defaults. SIGHUP looks at the\n"
@@ -118,13 +125,16 @@ int run(int argc, char** argv) {
     std::fprintf(stderr, "brdfd: %s; see brdfd --help\n", e.what());
     return 2;
   }
-  if (!o.health_check.empty()) return check_health(o.health_check, o.health_check_ca, std::chrono::seconds(5));
+  if (!o.health.address.empty()) return check_health(o.health, std::chrono::seconds(5));
   const Settings settings = load_settings(o.config, environment, o.flags);
   if (o.print) std::fputs(print_settings(settings).c_str(), stdout);
   const std::vector<std::string> problems = check_settings(settings);
   for (const std::string& problem : problems) std::fprintf(stderr, "brdfd: %s\n", problem.c_str());
   if (!problems.empty()) return 2;
-  if (o.check && !settings.tokens.empty()) (void)Tokens::read(settings.tokens);
+  if (!o.print || o.check) {
+    if (!settings.tokens.empty()) (void)Tokens::read(settings.tokens);
+    check_tls_files(settings);
+  }
   if (o.check) std::fprintf(stderr, "brdfd: the settings are good\n");
   return o.check || o.print ? 0 : serve(settings);
 }

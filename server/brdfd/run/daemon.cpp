@@ -18,7 +18,8 @@ std::chrono::milliseconds milliseconds(double seconds) { return std::chrono::mil
 }  // namespace
 
 Daemon::Daemon(const Settings& settings)
-    : serving_(settings), brdf_(serving_, watchers_), admin_(serving_), health_({v1::BrdfService::service_full_name()}), admin_health_({v1::AdminService::service_full_name()}) {
+    : serving_(settings), brdf_(serving_, watchers_, streams_), admin_(serving_), health_({v1::BrdfService::service_full_name()}), admin_health_({v1::AdminService::service_full_name()}),
+      stream_guard_(serving_.metrics, settings.max_streams) {
   read_tokens();
   if (serving_.settings.compress && !serving_.compress) log_event(Severity::warning, "compress.off", {{"reason", "there is no brdf-compress beside brdfd or in PATH"}});
   serving_.repository.on_change([this](const CatalogueHandle&, const CatalogueHandle&) { watchers_.poke(); });
@@ -45,6 +46,7 @@ Daemon::~Daemon() {
     health_.end();
     admin_health_.end();
     watchers_.poke();
+    streams_.end();
   }
   const auto now = std::chrono::system_clock::now();
   if (server_) server_->Shutdown(now);
@@ -57,10 +59,11 @@ void Daemon::read_tokens() {
 }
 
 void Daemon::listen() {
-  // Registers with every builder from here on, as gRPC has it; the flag decides about the first.
+  // For static libraries, where nothing else calls for it; set_server_options decides which server has it.
   if (serving_.settings.reflection) grpc::reflection::InitProtoReflectionServerBuilderPlugin();
   grpc::ServerBuilder builder;
   set_server_options(builder, serving_.settings);
+  stream_guard_.watch(builder);
   builder.RegisterService(&brdf_);
   builder.RegisterService(&health_);
   server_ = start_listening(builder, serving_.settings.listen, serving_.settings, addresses_);
@@ -125,10 +128,11 @@ void Daemon::drain(const std::atomic<bool>& hurry) {
   admin_health_.set_serving(false);
   const auto until = std::chrono::steady_clock::now() + milliseconds(s.drain_delay_seconds);
   while (!hurry && std::chrono::steady_clock::now() < until) std::this_thread::sleep_for(std::chrono::milliseconds(20));
-  serving_.ending = true;  // ends watches, and compressions, which no deadline is long enough for
+  serving_.ending = true;  // ends watches, streams, and compressions, which no deadline is long enough for
   health_.end();
   admin_health_.end();
   watchers_.poke();
+  streams_.end();
   const auto deadline = std::chrono::system_clock::now() + (hurry ? std::chrono::milliseconds(0) : milliseconds(s.drain_timeout_seconds));
   if (server_) server_->Shutdown(deadline);
   if (admin_server_) admin_server_->Shutdown(std::chrono::system_clock::now() + std::chrono::seconds(1));

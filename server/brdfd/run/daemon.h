@@ -6,6 +6,7 @@
 #include "rpc/admin_service.h"
 #include "rpc/health_service.h"
 #include "rpc/serving.h"
+#include "run/stream_guard.h"
 
 #include <grpcpp/server.h>
 
@@ -54,9 +55,11 @@ class Daemon {
 
   Serving serving_;
   Watchers watchers_;
+  EvaluateStreams streams_;
   BrdfServiceImpl brdf_;
   AdminServiceImpl admin_;
   HealthService health_, admin_health_;
+  StreamGuard stream_guard_;
   std::unique_ptr<grpc::Server> server_, admin_server_;
   std::unique_ptr<prometheus::Exposer> exposer_;
   std::vector<std::string> addresses_;

@@ -6,8 +6,12 @@
 
 namespace brdf::service {
 
-/// `brdfd --health-check ADDR`: 0 and "SERVING" on stdout, else 1 and why on stderr. A listener with TLS is asked with
-/// the roots of `ca` (PEM).
-int check_health(const std::string& address, const std::string& ca, std::chrono::milliseconds deadline);
+/// Who to ask, and how: TLS where `ca` is set, mutual TLS with the other two. Files are PEM.
+struct HealthQuestion {
+  std::string address, ca, certificate, key;
+};
+
+/// `brdfd --health-check ADDR`: 0 and "SERVING" on stdout, else 1 and why on stderr. Throws Error for a file that cannot be read.
+int check_health(const HealthQuestion& question, std::chrono::milliseconds deadline);
 
 }  // namespace brdf::service

@@ -5,6 +5,7 @@
 
 #include <brdf/error.h>
 
+#include <grpcpp/impl/server_builder_option.h>
 #include <grpcpp/resource_quota.h>
 #include <sys/socket.h>
 #include <sys/un.h>
@@ -31,12 +32,22 @@ void require_free(const ListenAddress& address) {
   }
 }
 
+/// The library of reflection registers itself with every server by being linked; this takes it out again.
+class WithoutReflection : public grpc::ServerBuilderOption {
+ public:
+  void UpdateArguments(grpc::ChannelArguments*) override {}
+  void UpdatePlugins(std::vector<std::unique_ptr<grpc::ServerBuilderPlugin>>* plugins) override {
+    std::erase_if(*plugins, [](const auto& plugin) { return plugin->name() == "proto_server_reflection"; });
+  }
+};
+
 }  // namespace
 
 void set_server_options(grpc::ServerBuilder& builder, const Settings& s) {
   grpc::ResourceQuota quota("brdfd");
   quota.Resize(static_cast<std::size_t>(s.connection_memory_bytes));
   builder.SetResourceQuota(quota);
+  if (!s.reflection) builder.SetOption(std::make_unique<WithoutReflection>());
   builder.SetMaxReceiveMessageSize(static_cast<int>(s.max_message_bytes));
   builder.SetMaxSendMessageSize(static_cast<int>(s.max_message_bytes) + 65536);
   builder.AddChannelArgument(GRPC_ARG_SERVER_HANDSHAKE_TIMEOUT_MS, milliseconds(s.handshake_timeout_seconds));
@@ -50,7 +61,7 @@ void set_server_options(grpc::ServerBuilder& builder, const Settings& s) {
   builder.AddChannelArgument(GRPC_ARG_MAX_CONCURRENT_STREAMS, static_cast<int>(s.max_streams));
   builder.AddChannelArgument(GRPC_ARG_MAX_METADATA_SIZE, 16384);
   builder.AddChannelArgument(GRPC_ARG_ALLOW_REUSEPORT, 0);
-  builder.AddChannelArgument(GRPC_ARG_ENABLE_CHANNELZ, s.channelz ? 1 : 0);
+  builder.AddChannelArgument(GRPC_ARG_ENABLE_CHANNELZ, 1);
 }
 
 std::unique_ptr<grpc::Server> start_listening(grpc::ServerBuilder& builder, const TextList& listen, const Settings& settings, std::vector<std::string>& bound) {

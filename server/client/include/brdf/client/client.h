@@ -85,11 +85,13 @@ class Client {
   v1::FindSimilarResponse similar(const v1::FindSimilarRequest& request);
 
   /// Answers in order, several batches under way at once. `next` is called from a thread of its own and gives false at the end; `answer` takes each answer with
-  /// the number of its request from 0. The deadline counts for the whole stream.
+  /// the number of its request from 0. The deadline counts for the whole stream. Where a replica ends or refuses, what is not yet answered
+  /// is asked of another; up to eight batches are kept for that.
   void evaluate_stream(const std::function<bool(v1::EvaluateRequest&)>& next, const std::function<void(std::uint64_t, const v1::EvaluateResponse&)>& answer,
                        std::chrono::milliseconds deadline);
 
-  /// Uploads a measured file. `progress` may return false to cancel.
+  /// Uploads a measured file. `progress` may return false to cancel. Repeated where the server refused it before the work began, and
+  /// where a result may be replaced (`overwrite`), afterwards, too.
   v1::Material compress(const v1::CompressOptions& options, std::span<const std::byte> file, const std::function<bool(const std::string& stage, double done)>& progress,
                         std::chrono::milliseconds deadline);
 
