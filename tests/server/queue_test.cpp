@@ -15,6 +15,8 @@ using namespace brdf::service;
 /// Keeps a worker busy until it is let go.
 struct Gate {
   void hold(WorkerPool& pool, std::uint64_t cost = 1) {
+    // A client has its answer before the pool has the cost back.
+    while (pool.load() != 0) std::this_thread::yield();
     // The job outlives what is on the stack here: it holds both ends itself.
     const auto begun = std::make_shared<std::promise<void>>();
     ASSERT_TRUE(pool.submit(cost, [begun, opened = open.get_future().share()] {
