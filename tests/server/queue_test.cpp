@@ -87,12 +87,17 @@ v1::EvaluateRequest request(std::uint32_t count) {
   return r;
 }
 
+/// One worker, and no more than a thousand queries in all.
+struct ShortQueue : test::Served {
+  ShortQueue() {
+    settings.workers = 1;
+    settings.max_batch_queries = settings.queue_queries = 1000;
+    put("a", test::golden("rgb-lobes"));
+  }
+};
+
 TEST(Overload, IsRefusedAtOnceWithPushback) {
-  test::Served s;
-  s.settings.workers = 1;
-  s.settings.max_batch_queries = 1000;
-  s.settings.queue_queries = 1000;
-  s.put("a", test::golden("rgb-lobes"));
+  ShortQueue s;
   Serving& serving = s.start().serving();
   Gate gate;
   gate.hold(serving.workers, 900);
@@ -113,11 +118,7 @@ TEST(Overload, IsRefusedAtOnceWithPushback) {
 }
 
 TEST(Overload, BriefCallsAreRefusedLikeOthers) {
-  test::Served s;
-  s.settings.workers = 1;
-  s.settings.max_batch_queries = 1000;
-  s.settings.queue_queries = 1000;
-  s.put("a", test::golden("rgb-lobes"));
+  ShortQueue s;
   Serving& serving = s.start().serving();
   v1::EvaluateResponse response;
   for (int i = 0; i < 2; ++i) {  // the second finds the tables ready
