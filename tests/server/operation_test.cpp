@@ -6,6 +6,9 @@
 
 #include <arpa/inet.h>
 #include <sys/socket.h>
+#include <sys/un.h>
+
+#include <cstddef>
 
 namespace {
 
@@ -129,6 +132,50 @@ TEST(Sigterm, NewCallsAreTakenDuringTheDelay) {
   EXPECT_EQ(d.process->poll(), std::nullopt);
   d.process->signal(SIGTERM);
   EXPECT_EQ(d.process->wait(), 1) << "asked twice: at once";
+}
+
+/// What systemd listens to: a name in the file system, or an abstract one behind '@'.
+class NotifySocket {
+ public:
+  explicit NotifySocket(std::string name) : fd_(::socket(AF_UNIX, SOCK_DGRAM | SOCK_CLOEXEC | SOCK_NONBLOCK, 0)) {
+    sockaddr_un to{};
+    to.sun_family = AF_UNIX;
+    if (name.front() == '@') name.front() = '\0';
+    name.copy(to.sun_path, sizeof(to.sun_path));
+    const auto size = static_cast<socklen_t>(offsetof(sockaddr_un, sun_path) + name.size());
+    if (::bind(fd_, reinterpret_cast<const sockaddr*>(&to), size) != 0) throw std::runtime_error("cannot bind the socket of the notifications");
+  }
+  ~NotifySocket() { ::close(fd_); }
+  NotifySocket(const NotifySocket&) = delete;
+  NotifySocket& operator=(const NotifySocket&) = delete;
+
+  /// The next message, or nothing where none comes.
+  std::string next() const {
+    std::array<char, 256> text{};
+    ::ssize_t size = -1;
+    test::until([&] { return (size = ::recv(fd_, text.data(), text.size(), 0)) >= 0; });
+    return {text.data(), static_cast<std::size_t>(std::max<::ssize_t>(size, 0))};
+  }
+
+ private:
+  int fd_;
+};
+
+TEST(Systemd, HearsOfEachState) {
+  for (const bool abstract : {false, true}) {
+    test::RunningDaemon d;
+    const std::string name = (abstract ? "@" : "") + d.place("notify");
+    const NotifySocket systemd(name);
+    d.start({"--listen", d.socket()}, {"NOTIFY_SOCKET=" + name});
+    EXPECT_EQ(systemd.next(), "READY=1");
+    EXPECT_TRUE(test::ask(test::fresh_channel(d.socket())).ok()) << "ready means that calls are answered";
+    d.process->signal(SIGHUP);
+    EXPECT_EQ(systemd.next(), "RELOADING=1");
+    EXPECT_EQ(systemd.next(), "READY=1");
+    d.process->signal(SIGTERM);
+    EXPECT_EQ(systemd.next(), "STOPPING=1");
+    EXPECT_EQ(d.process->wait(), 0);
+  }
 }
 
 TEST(Metrics, TellCallsQueriesAndRefusals) {
