@@ -109,7 +109,7 @@ class Proxy(unittest.TestCase):
         try:
             for name, replica in zip(("one", "two"), self.replicas):
                 self.assertEqual(replica.end(signal.SIGTERM), 0)
-                self.assertIn(f"brdfd/{name} is DOWN", self.log())
+                self.assertIn(f"brdfd/{name} is DOWN, reason: Layer7 invalid response", self.log())  # by its answer, and not when it was gone
                 replica.start()
                 until(lambda up=f"brdfd/{name} is UP": up in self.log())
         finally:
