@@ -5,6 +5,7 @@
 #include "parse_arguments.h"
 #include "run_program.h"
 #include "shared/error_table.h"
+#include "shared/silence_grpc.h"
 #include "verbs.h"
 
 #include <brdf/version.h>
@@ -50,5 +51,6 @@ ExitCode run(int argc, char** argv) {
 }  // namespace
 
 int main(int argc, char** argv) {
+  service::silence_grpc();
   return cli::run_program("brdf-query", [&] { return run(argc, argv); });
 }

@@ -4,6 +4,7 @@
 #include "client/replicas.h"
 #include "server/batch.h"
 #include "server/daemon_fixture.h"
+#include "server/slow_relay.h"
 #include "shared/content_hash.h"
 #include "shared/error_table.h"
 #include "shared/material_name.h"
@@ -141,6 +142,17 @@ TEST(Client, FetchesPrefixesAndOpensThem) {
   s.daemon.reset();
   EXPECT_TRUE(client.fetch(whole.version).from_cache) << "a version that is here whole needs no server";
   EXPECT_THROW(client.fetch("materials/a"), CallError);
+}
+
+TEST(Client, WaitsForHandshakesOfFarServers) {
+  test::Served s;
+  s.put("a", test::golden("rgb-lobes"));
+  s.start();
+  const test::SlowRelay relay((s.folder / "socket").string(), std::chrono::seconds(1));
+  ClientOptions options;
+  options.servers = {relay.address()};
+  options.deadline = std::chrono::minutes(1);
+  EXPECT_EQ(Client(options).get("materials/a").name(), "materials/a");
 }
 
 TEST(Client, EveryCallHasADeadline) {

@@ -98,6 +98,8 @@ class Proxy(unittest.TestCase):
 
     def test_replicas_come_and_go_and_no_call_fails(self):
         until(self.answers)
+        health = self.query("health")
+        self.assertEqual((health.stdout, health.stderr), (b"SERVING\n", b""))
         self.assertEqual([m["name"] for m in json.loads(self.query("list", "--json").stdout)["rows"]], ["materials/gold"])
         ended, failures, answered = threading.Event(), [], [0, 0]
 

@@ -45,7 +45,10 @@ TEST(Tls, WhoTrustsTheAuthorityIsServedAndPlainTextIsNot) {
   const test::Finished checked = test::run_brdfd({"--health-check", d.addresses[0], "--health-check-ca", d.place("ca.pem")});
   EXPECT_EQ(checked.code, 0) << checked.log;
   EXPECT_EQ(checked.output, "SERVING\n");
-  EXPECT_EQ(test::run_brdfd({"--health-check", d.addresses[0], "--health-check-ca", d.place("other.pem")}).code, 1);
+  const test::Finished distrusted = test::run_brdfd({"--health-check", d.addresses[0], "--health-check-ca", d.place("other.pem")});
+  EXPECT_EQ(distrusted.code, 1);
+  EXPECT_TRUE(says(distrusted.log, "certificate verify failed"));
+  EXPECT_EQ(std::count(distrusted.log.begin(), distrusted.log.end(), '\n'), 1) << distrusted.log;
   EXPECT_EQ(test::run_brdfd({"--health-check", d.addresses[0]}).code, 1);
 
   client::ClientOptions options;

@@ -3,6 +3,7 @@
 
 #include "base/file_io.h"
 #include "grpc/health/v1/health.grpc.pb.h"
+#include "shared/silence_grpc.h"
 
 #include <grpcpp/create_channel.h>
 
@@ -20,6 +21,7 @@ std::string read_text(const std::string& file) {
 }  // namespace
 
 int check_health(const HealthQuestion& q, std::chrono::milliseconds deadline) {
+  silence_grpc();
   const auto credentials = q.ca.empty() ? grpc::InsecureChannelCredentials() : grpc::SslCredentials({read_text(q.ca), read_text(q.key), read_text(q.certificate)});
   const auto stub = grpc::health::v1::Health::NewStub(grpc::CreateChannel(q.address, credentials));
   grpc::ClientContext context;

@@ -13,6 +13,7 @@
 #include <array>
 #include <cerrno>
 #include <fstream>
+#include <map>
 #include <stdexcept>
 #include <thread>
 #include <utility>
@@ -117,6 +118,18 @@ std::size_t Process::descriptors() const {
   std::size_t count = 0;
   for (std::filesystem::directory_iterator at("/proc/" + std::to_string(pid_) + "/fd", ignored), end; at != end; at.increment(ignored)) ++count;
   return count;
+}
+
+std::string Process::descriptor_kinds() const {
+  std::map<std::string, int> kinds;
+  std::error_code ignored;
+  for (std::filesystem::directory_iterator at("/proc/" + std::to_string(pid_) + "/fd", ignored), end; at != end; at.increment(ignored)) {
+    const std::string target = std::filesystem::read_symlink(at->path(), ignored).string();
+    ++kinds[target.starts_with("socket:") || target.starts_with("pipe:") ? target.substr(0, target.find(':')) : target];
+  }
+  std::string text;
+  for (const auto& [kind, count] : kinds) text += (text.empty() ? "" : ", ") + std::to_string(count) + " " + kind;
+  return text;
 }
 
 void run_program(const std::vector<std::string>& words, const std::filesystem::path& log) {

@@ -37,6 +37,7 @@ class Process {
   std::uint64_t resident_bytes() const;       ///< now
   std::uint64_t peak_resident_bytes() const;  ///< since the start
   std::size_t descriptors() const;            ///< open now
+  std::string descriptor_kinds() const;       ///< how many of what, to read
 
  private:
   std::uint64_t status_kilobytes(const std::string& field) const;

@@ -67,7 +67,6 @@ bool come_and_go(const Served& served, std::size_t i) {
   const auto stub = v1::BrdfService::NewStub(new_channel(served.address));
   if (i % 2 == 0) {
     Context context(20s);
-    context.set_wait_for_ready(true);  // a daemon with sanitizers may be longer to shake hands than a channel waits
     const auto watch = stub->WatchMaterials(&context, {});
     v1::WatchMaterialsResponse first;
     const bool heard = watch->Read(&first);
@@ -100,6 +99,7 @@ std::vector<Row> measure_soak(Setup& setup) {
   const std::vector<std::byte> other = setup.compressed_to(500), first = setup.compressed_to(600);
   const double seconds = setup.soak_seconds > 0 ? setup.soak_seconds : setup.is_long ? 600 : 120, warm = seconds / 4;
   const std::size_t descriptors = served.process.descriptors();
+  const std::string kinds = served.process.descriptor_kinds();
   std::atomic<bool> end{false};
   std::atomic<std::uint64_t> calls{0}, wrong{0};
   std::mutex mutex;
@@ -141,13 +141,14 @@ std::vector<Row> measure_soak(Setup& setup) {
   client = client::Client(options);
   std::size_t left = 0;
   for (int i = 0; i < 100 && (left = served.process.descriptors()) > descriptors; ++i) std::this_thread::sleep_for(100ms);
+  const std::string kinds_left = served.process.descriptor_kinds();
   served.process.signal(SIGTERM);
   const int code = served.process.wait();  // sanitizers end with another code where they had something to report
   const double per_minute = 60 * slope(samples);
   Row row;
   row.name = "soak, " + number(seconds / 60) + (seconds > 60 ? " minutes" : " minute");
   row.asked = "memory slope under 1 MB/min, descriptors constant";
-  row.reached = number(per_minute / 1e6) + " MB/min, " + number(samples.back().bytes / 1e6) + " MB at the end; " + std::to_string(left) + " descriptors after, " + std::to_string(descriptors) + " before; " + std::to_string(wrong) + " of " +
+  row.reached = number(per_minute / 1e6) + " MB/min, " + number(samples.back().bytes / 1e6) + " MB at the end; " + std::to_string(left) + " descriptors after, " + std::to_string(descriptors) + " before" + (left > descriptors ? " (" + kinds_left + "; " + kinds + ")" : "") + "; " + std::to_string(wrong) + " of " +
                 std::to_string(calls) + " calls ended otherwise than they should" + (wrong == 0 ? "" : " (" + first_wrong + ")");
   row.ran = "batches of 1 to 8192 pairs, streams, fetches, lists, albedos, likeness, refused calls, watchers and clients that hang up, a new version every 3 s; slope of Theil and Sen after the first quarter";
   if (setup.is_sanitized) row.ran += "; built with sanitizers, which keep memory that was freed: its growth is not judged";

@@ -104,7 +104,7 @@ std::shared_ptr<grpc::Channel> new_channel(const std::string& address, const std
   grpc::ChannelArguments a;
   a.SetInt(GRPC_ARG_USE_LOCAL_SUBCHANNEL_POOL, 1);
   a.SetInt(GRPC_ARG_INITIAL_RECONNECT_BACKOFF_MS, 100);
-  a.SetInt(GRPC_ARG_MIN_RECONNECT_BACKOFF_MS, 100);
+  a.SetInt(GRPC_ARG_MIN_RECONNECT_BACKOFF_MS, 5'000);
   a.SetInt(GRPC_ARG_MAX_RECONNECT_BACKOFF_MS, 500);
   for (const auto& [name, value] : arguments) a.SetInt(name, value);
   return grpc::CreateCustomChannel(address, grpc::InsecureChannelCredentials(), a);
