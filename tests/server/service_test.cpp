@@ -139,6 +139,28 @@ TEST(Watch, TellsEveryChange) {
   EXPECT_EQ(reader->Finish().error_code(), StatusCode::CANCELLED);
 }
 
+TEST(Watch, CancelledWatchersLeave) {
+  test::Served s;
+  s.settings.watchers = 1;
+  s.put("a", test::golden("rgb-lobes"));
+  s.start();
+  // Whoever came before has to be gone, whatever their cancellation met: no watcher, a message on its way, one that was read.
+  for (int i = 0; i < 1000; ++i) {
+    const auto patience = std::chrono::steady_clock::now() + std::chrono::minutes(1);
+    for (bool taken = false; !taken;) {
+      ASSERT_LT(std::chrono::steady_clock::now(), patience) << "watcher " << i << " does not get the place of the one before";
+      test::Context context;
+      const auto reader = s.stub->WatchMaterials(&context, {});
+      v1::WatchMaterialsResponse message;
+      taken = i % 3 == 0 || reader->Read(&message);
+      if (i % 3 == 1) std::this_thread::sleep_for(std::chrono::microseconds(i % 50));
+      context.TryCancel();
+      const grpc::Status status = reader->Finish();
+      ASSERT_TRUE(status.error_code() == StatusCode::CANCELLED || status.error_code() == StatusCode::RESOURCE_EXHAUSTED) << status.error_message();
+    }
+  }
+}
+
 TEST(Roles, EachCallNeedsItsOwn) {
   test::Served s;
   s.put("a", test::golden("rgb-lobes"));

@@ -67,13 +67,14 @@ class Watchers::Watcher : public grpc::ServerWriteReactor<v1::WatchMaterialsResp
     {
       const std::lock_guard lock(mutex_);
       writing_ = false;
-      if (!ok) return finish(call_.over());
+      if (!ok || cancelled_) return finish(call_.over());
     }
     poke();
   }
 
   void OnCancel() override {
     const std::lock_guard lock(mutex_);
+    cancelled_ = true;  // the write under way may still succeed
     if (!writing_) finish(call_.over());
   }
 
@@ -105,7 +106,7 @@ class Watchers::Watcher : public grpc::ServerWriteReactor<v1::WatchMaterialsResp
   CatalogueHandle told_;
   std::vector<CatalogueChange> pending_;
   std::size_t next_ = 0;
-  bool first_ = true, writing_ = false, finished_ = false;
+  bool first_ = true, writing_ = false, cancelled_ = false, finished_ = false;
   v1::WatchMaterialsResponse message_;
 };
 
