@@ -20,8 +20,14 @@ namespace brdf::client {
 struct Client::State {
   explicit State(ClientOptions o) : options(std::move(o)), replicas(options), cache(options.cache, options.cache_bytes) {}
 
-  void prepare(grpc::ClientContext& context, std::chrono::milliseconds deadline) const {
-    context.set_deadline(std::chrono::system_clock::now() + deadline);
+  using Time = std::chrono::system_clock::time_point;
+
+  /// Of a call that begins now, however many attempts it takes.
+  Time deadline() const { return std::chrono::system_clock::now() + options.deadline; }
+
+  void prepare(grpc::ClientContext& context, std::chrono::milliseconds left) const { prepare(context, std::chrono::system_clock::now() + left); }
+  void prepare(grpc::ClientContext& context, Time deadline) const {
+    context.set_deadline(deadline);
     if (!options.token.empty()) context.AddMetadata("authorization", "Bearer " + options.token);
   }
 
@@ -37,9 +43,10 @@ struct Client::State {
   Response call(const std::string& name, const Request& request, grpc::Status (v1::BrdfService::Stub::*method)(grpc::ClientContext*, const Request&, Response*)) const {
     const auto parsed = service::parse_material_name(name);
     const auto channels = replicas.channels_for(parsed ? parsed->id : name);
+    const Time until = deadline();
     for (std::size_t i = 0;; ++i) {
       grpc::ClientContext context;
-      prepare(context, options.deadline);
+      prepare(context, until);
       v1::BrdfService::Stub stub(channels[i]);
       Response response;
       const grpc::Status status = (stub.*method)(&context, request, &response);

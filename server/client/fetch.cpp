@@ -36,14 +36,10 @@ class Download {
     const auto reader = stub.DownloadMaterial(&context, request_);
     v1::DownloadMaterialResponse message;
     while (reader->Read(&message)) {
-      if (message.has_header() && !begin(message.header())) {
-        context.TryCancel();
-        reader->Finish();
-        return grpc::Status::OK;
-      }
+      if (message.has_header() && !begin(message.header())) return stop(*reader, context);
       const auto chunk = std::as_bytes(std::span(message.chunk()));
       fetched_.bytes.insert(fetched_.bytes.end(), chunk.begin(), chunk.end());
-      if (fetched_.bytes.size() > header_.prefix_bytes()) break;
+      if (fetched_.bytes.size() > header_.prefix_bytes()) return stop(*reader, context);  // take() says so
       request_.set_offset(fetched_.bytes.size());
     }
     return reader->Finish();
@@ -61,6 +57,13 @@ class Download {
   }
 
  private:
+  /// Enough was read.
+  static grpc::Status stop(grpc::ClientReader<v1::DownloadMaterialResponse>& reader, grpc::ClientContext& context) {
+    context.TryCancel();
+    reader.Finish();
+    return grpc::Status::OK;
+  }
+
   /// False when the cache has it.
   bool begin(const v1::DownloadHeader& header) {
     if (!header_.version().empty() && (header.version() != header_.version() || header.sha256() != header_.sha256())) {
@@ -102,9 +105,10 @@ Fetched Client::fetch(const std::string& name, const FetchOptions& options) {
   }
   const auto channels = state_->replicas.channels_for(parsed ? parsed->id : name);
   Download download(state_->cache, name, options);
+  const State::Time until = state_->deadline();
   for (std::size_t attempt = 0;; ++attempt) {
     grpc::ClientContext context;
-    state_->prepare(context, state_->options.deadline);
+    state_->prepare(context, until);
     v1::BrdfService::Stub stub(channels[attempt % channels.size()]);
     const grpc::Status status = download.read(stub, context);
     if (status.ok()) return download.take();

@@ -50,6 +50,12 @@ class Batches {
     changed_.notify_all();
   }
 
+  /// Everything was asked for and answered.
+  bool done() {
+    const std::lock_guard lock(mutex_);
+    return exhausted_ && unanswered_.empty();
+  }
+
   void set_over(bool over) {
     const std::lock_guard lock(mutex_);
     over_ = over;
@@ -104,6 +110,54 @@ grpc::Status evaluate_on(v1::BrdfService::Stub& stub, grpc::ClientContext& conte
   return status;
 }
 
+struct Compressed {
+  v1::Material material;
+  bool begun = false;  ///< the server said something
+};
+
+/// One connection's worth of a compression.
+grpc::Status compress_on(v1::BrdfService::Stub& stub, grpc::ClientContext& context, const v1::CompressOptions& options, std::span<const std::byte> file,
+                         const std::function<bool(const std::string&, double)>& progress, Compressed& compressed) {
+  const auto stream = stub.Compress(&context);
+  std::exception_ptr failed;
+  std::thread writer([&] {
+    try {
+      v1::CompressRequest request;
+      *request.mutable_options() = options;
+      bool open = stream->Write(request);
+      for (std::span<const std::byte> rest = file; open && !rest.empty();) {
+        const auto part = rest.first(std::min(rest.size(), chunk_bytes));
+        request.set_chunk(part.data(), part.size());
+        open = stream->Write(request);
+        rest = rest.subspan(part.size());
+      }
+    } catch (...) {
+      failed = std::current_exception();
+      context.TryCancel();
+    }
+    stream->WritesDone();
+  });
+  const auto finish = [&] {
+    writer.join();
+    return stream->Finish();
+  };
+  v1::CompressResponse response;
+  try {
+    while (stream->Read(&response)) {
+      compressed.begun = true;
+      if (response.has_material()) compressed.material = response.material();
+      if (response.has_progress() && progress && !progress(response.progress().stage(), response.progress().done())) context.TryCancel();
+    }
+  } catch (...) {
+    context.TryCancel();
+    finish();
+    throw;
+  }
+  grpc::Status status = finish();
+  if (failed) std::rethrow_exception(failed);
+  return status;
+}
+
 }  // namespace
 
 void Client::evaluate_stream(const Next& next, const Answer& answer, std::chrono::milliseconds deadline) {
@@ -114,6 +168,7 @@ void Client::evaluate_stream(const Next& next, const Answer& answer, std::chrono
     grpc::ClientContext context;
     state_->prepare(context, backoff.left());
     const grpc::Status status = evaluate_on(stub, context, batches, answer, backoff);
+    if (status.ok() && !batches.done()) throw CallError(grpc::StatusCode::DATA_LOSS, "the server ended the stream before it had answered everything");
     if (status.ok()) return;
     if (!backoff.again(status, context)) State::fail(status, context);
   }
@@ -126,33 +181,12 @@ v1::Material Client::compress(const v1::CompressOptions& options, std::span<cons
   for (;;) {
     grpc::ClientContext context;
     state_->prepare(context, backoff.left());
-    const auto stream = stub.Compress(&context);
-    std::thread writer([&] {
-      v1::CompressRequest request;
-      *request.mutable_options() = options;
-      bool open = stream->Write(request);
-      for (std::span<const std::byte> rest = file; open && !rest.empty();) {
-        const auto part = rest.first(std::min(rest.size(), chunk_bytes));
-        request.set_chunk(part.data(), part.size());
-        open = stream->Write(request);
-        rest = rest.subspan(part.size());
-      }
-      stream->WritesDone();
-    });
-    v1::CompressResponse response;
-    v1::Material material;
-    bool begun = false;
-    while (stream->Read(&response)) {
-      begun = true;
-      if (response.has_material()) material = response.material();
-      if (response.has_progress() && progress && !progress(response.progress().stage(), response.progress().done())) context.TryCancel();
-    }
-    writer.join();
-    const grpc::Status status = stream->Finish();
-    if (status.ok()) return material;
+    Compressed compressed;
+    const grpc::Status status = compress_on(stub, context, options, file, progress, compressed);
+    if (status.ok()) return compressed.material;
     // Once the work has begun, a result may have been published of which the client does not know; a caller who allows to replace it
     // loses nothing by a second.
-    if ((begun && !options.overwrite()) || !backoff.again(status, context)) State::fail(status, context);
+    if ((compressed.begun && !options.overwrite()) || !backoff.again(status, context)) State::fail(status, context);
   }
 }
 

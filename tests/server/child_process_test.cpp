@@ -59,6 +59,14 @@ TEST(ChildProcess, SignalsTimeAndStop) {
   EXPECT_LT(std::chrono::steady_clock::now() - start, 30s);
 }
 
+TEST(ChildProcess, EndsWhereChildrenAreCollectedByThemselves) {
+  const auto before = ::signal(SIGCHLD, SIG_IGN);
+  const ChildResult r = shell("exit 0");
+  ::signal(SIGCHLD, before);
+  EXPECT_EQ(r.end, End::exited);
+  EXPECT_EQ(r.code, 127) << "how it ended is not known, so it was no success";
+}
+
 TEST(ChildProcess, FloodsDoNotOutlastTheTime) {
   for (const char* flood : {"exec cat /dev/zero >&3", "exec cat /dev/zero >&2", "yes >&3 & yes >&2; true"}) {
     ChildLimits l;

@@ -148,4 +148,72 @@ TEST(Compress, NoMoreUploadsAtOnceThanMayWait) {
   EXPECT_TRUE(test::until([&] { return calls == 1; }));
 }
 
+TEST(Compress, RefusedCallsTakeNoPlace) {
+  test::Served s;
+  test::put_text(s.folder / "tokens", "read 0123456789abcdef\n");
+  std::filesystem::permissions(s.folder / "tokens", std::filesystem::perms::owner_read | std::filesystem::perms::owner_write);
+  s.settings.tokens = (s.folder / "tokens").string();
+  compressing(s, 600);
+  const Upload refused(s);
+  v1::CompressResponse response;
+  EXPECT_FALSE(refused.stream->Read(&response));
+  EXPECT_EQ(s.daemon->serving().compress_calls, 0U) << "although the call is not over";
+  EXPECT_EQ(refused.stream->Finish().error_code(), grpc::StatusCode::UNAUTHENTICATED);
+}
+
+/// A program that compresses for ever.
+void be_slow(test::Served& s) {
+  test::put_text(s.folder / "slow", "#!/bin/sh\nsleep 1000\n");
+  std::filesystem::permissions(s.folder / "slow", std::filesystem::perms::owner_all);
+  s.settings.compress_program = (s.folder / "slow").string();
+}
+
+TEST(Compress, ADrainIsNoCancellation) {
+  test::Served s;
+  compressing(s, 600);
+  be_slow(s);
+  s.start();
+  Upload upload(s);
+  v1::CompressRequest chunk;
+  chunk.set_chunk("a measurement");
+  upload.stream->Write(chunk);
+  upload.stream->WritesDone();
+  v1::CompressResponse response;
+  ASSERT_TRUE(upload.stream->Read(&response)) << "it waits or runs";
+  std::thread drain([&] { s.daemon->drain(std::atomic<bool>{false}); });
+  EXPECT_EQ(upload.end().error_code(), grpc::StatusCode::UNAVAILABLE) << "another replica can do it";
+  drain.join();
+  EXPECT_TRUE(std::filesystem::is_empty(s.folder / "uploads"));
+}
+
+TEST(Client, ExceptionsOfProgressComeThrough) {
+  test::Served s;
+  compressing(s, 600);
+  client::Client client(s.client_options());
+  v1::CompressOptions options;
+  options.set_name("materials/new");
+  const std::vector<std::byte> file(1 << 20);
+  struct Stop {};
+  EXPECT_THROW(client.compress(options, file, [](const std::string&, double) -> bool { throw Stop(); }, std::chrono::minutes(1)), Stop);
+  EXPECT_TRUE(test::until([&] { return s.daemon->serving().compress_calls == 0; }));
+}
+
+TEST(EvaluateStream, MessagesThatCannotBeReadAreNoEnd) {
+  test::Served s;
+  s.put("a", test::golden("rgb-lobes"));
+  s.start();
+  test::Context context;
+  const auto stream = s.stub->EvaluateStream(&context);
+  v1::EvaluateStreamRequest request;
+  request.mutable_request()->set_material("caf\xe9");  // Latin-1, which protobuf writes and does not read
+  stream->Write(request);
+  stream->WritesDone();
+  v1::EvaluateStreamResponse response;
+  EXPECT_FALSE(stream->Read(&response));
+  EXPECT_EQ(stream->Finish().error_code(), grpc::StatusCode::INVALID_ARGUMENT);
+  client::Client client(s.client_options());
+  EXPECT_THROW(client.evaluate_stream([&](v1::EvaluateRequest& r) { return r = request.request(), true; }, [](std::uint64_t, const v1::EvaluateResponse&) { FAIL(); }, std::chrono::minutes(1)),
+               client::CallError);
+}
+
 }  // namespace

@@ -161,6 +161,29 @@ TEST(Watch, CancelledWatchersLeave) {
   }
 }
 
+TEST(Health, CancelledWatchersLeave) {
+  service::HealthService health({});
+  health.set_serving(true);
+  grpc::ServerBuilder builder;
+  builder.RegisterService(&health);
+  const auto server = builder.BuildAndStart();
+  const auto stub = grpc::health::v1::Health::NewStub(server->InProcessChannel({}));
+  for (int i = 0; i < 3000; ++i) {
+    test::Context context;
+    const auto reader = stub->Watch(&context, {});
+    grpc::health::v1::HealthCheckResponse response;
+    if (i % 3 != 0) reader->Read(&response);
+    if (i % 3 == 1) std::this_thread::sleep_for(std::chrono::microseconds(i % 50));
+    context.TryCancel();
+    reader->Finish();
+  }
+  const auto patience = std::chrono::steady_clock::now() + std::chrono::minutes(1);
+  while (health.watching() != 0 && std::chrono::steady_clock::now() < patience) std::this_thread::sleep_for(std::chrono::milliseconds(10));
+  EXPECT_EQ(health.watching(), 0U);
+  health.end();
+  server->Shutdown();
+}
+
 TEST(Roles, EachCallNeedsItsOwn) {
   test::Served s;
   s.put("a", test::golden("rgb-lobes"));

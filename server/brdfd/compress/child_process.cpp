@@ -21,6 +21,7 @@ namespace brdf::service {
 namespace {
 
 constexpr int progress_descriptor = 3;
+constexpr int lost_status = 127 << 8;  // as of one that could not be started
 constexpr std::size_t longest_line = 256, longest_errors = 4096;
 
 struct Pipe {
@@ -123,7 +124,9 @@ ChildResult run_child(const std::vector<std::string>& arguments, const ChildLimi
   for (bool gone = false; !gone;) {
     std::array<pollfd, 2> ready{pollfd{progress.read.get(), POLLIN, 0}, pollfd{errors.read.get(), POLLIN, 0}};
     ::poll(ready.data(), ready.size(), 20);
-    gone = ::waitpid(child, &status, WNOHANG) == child;
+    const pid_t collected = ::waitpid(child, &status, WNOHANG);
+    gone = collected == child || (collected < 0 && errno != EINTR);
+    if (gone && collected < 0) status = lost_status;  // where children are collected by themselves, nobody learns how they ended
     const bool more = drain(progress.read.get(), line, longest_line * 16);
     const bool more_errors = drain(errors.read.get(), result.errors, longest_errors);
     hand_lines(line, on_line);

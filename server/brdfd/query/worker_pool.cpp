@@ -24,8 +24,8 @@ bool WorkerPool::submit(std::uint64_t cost, std::function<void()> job) {
   {
     const std::lock_guard lock(mutex_);
     if (load_ != 0 && (cost > capacity_ || load_ > capacity_ - cost)) return false;
-    load_ += cost;
     queue_.push_back({cost, std::move(job)});
+    load_ += cost;
   }
   changed_.notify_one();
   return true;

@@ -31,7 +31,9 @@ Material TableCache::get(const VersionHandle& version, EvalLevel level, std::uin
   }
   lock.unlock();
   std::optional<Material> material;
+  std::list<Key> used;  // before it is built: nothing may fail after
   try {
+    used.push_front(key);
     material = build(*version, level, bytes, sampling, limits_);
   } catch (...) {
     lock.lock();
@@ -40,7 +42,7 @@ Material TableCache::get(const VersionHandle& version, EvalLevel level, std::uin
     throw;
   }
   lock.lock();
-  order_.push_front(key);
+  order_.splice(order_.begin(), used);
   Entry& entry = entries_[key];
   entry.material = material;
   entry.used = order_.begin();

@@ -82,6 +82,10 @@ void Call::count(const grpc::Status& status) const {
   }
 }
 
+bool is_cut_short(const google::protobuf::MessageLite& message) { return message.ByteSizeLong() != 0; }
+
+grpc::Status unreadable_message() { return detailed_status(grpc::StatusCode::INVALID_ARGUMENT, "a message is no protobuf of its type, or a text in it is not UTF-8", {"MESSAGE_UNREADABLE", {}, {}}); }
+
 VersionHandle find_version(const Catalogue& catalogue, const char* field, const std::string& name) {
   const auto parsed = parse_material_name(name);
   if (!parsed) throw FieldError(field, "is " + excerpt(name) + ", which is no name of a material, wanted is materials/{material} or materials/{material}/versions/{version}");

@@ -5,6 +5,7 @@
 #include "rpc/error_details.h"
 #include "rpc/serving.h"
 
+#include <google/protobuf/message_lite.h>
 #include <grpcpp/server_context.h>
 
 #include <chrono>
@@ -54,6 +55,11 @@ class Call {
   Method method_;
   std::chrono::steady_clock::time_point start_;
 };
+
+/// gRPC says the same of the end of a client's messages and of one that cannot be read. Of the latter something is left in `message`,
+/// which was empty before, unless its first byte was wrong already.
+bool is_cut_short(const google::protobuf::MessageLite& message);
+grpc::Status unreadable_message();
 
 /// The version that a resource name means now. Throws FieldError for `field`, StatusError(NOT_FOUND).
 VersionHandle find_version(const Catalogue& catalogue, const char* field, const std::string& name);

@@ -30,14 +30,15 @@ class Place {
 
 class CompressCall : public grpc::ServerBidiReactor<v1::CompressRequest, v1::CompressResponse> {
  public:
-  CompressCall(Serving& serving, grpc::CallbackServerContext* context) : call_(serving, Method::compress, context), place_(serving.compress_calls) {
+  CompressCall(Serving& serving, grpc::CallbackServerContext* context) : call_(serving, Method::compress, context) {
     const std::lock_guard lock(mutex_);
     // An upload that never ends would keep its place for ever.
     alarm_.Set(std::chrono::system_clock::now() + std::chrono::milliseconds(static_cast<std::int64_t>(serving.settings.compress_seconds * 1000)), [this](bool rang) { on_alarm(rang); });
     try {
       call_.require(Role::compress);
       if (!serving.compress) throw StatusError(grpc::StatusCode::UNIMPLEMENTED, "COMPRESS_OFF", "this server does not compress");
-      if (place_.number() > serving.compressions.capacity()) refuse();
+      place_.emplace(serving.compress_calls);
+      if (place_->number() > serving.compressions.capacity()) refuse();
       read();
     } catch (...) {
       end(call_.status_of_exception());
@@ -57,10 +58,11 @@ class CompressCall : public grpc::ServerBidiReactor<v1::CompressRequest, v1::Com
         }
       } else {
         if (call_.is_over()) return end(call_.over());
+        if (is_cut_short(request_)) return end(unreadable_message());
         if (!job_) throw FieldError("options", "are missing, they come first");
+        say_progress("waiting", 0);
         if (!serving.compressions.submit(1, [this] { compress(); })) refuse();
         uploaded_ = true;
-        say_progress("waiting", 0);
       }
     } catch (...) {
       end(call_.status_of_exception());
@@ -139,6 +141,7 @@ class CompressCall : public grpc::ServerBidiReactor<v1::CompressRequest, v1::Com
   // On a thread of compressions.
   void compress() {
     std::exception_ptr failed;
+    bool ended = false;
     VersionHandle version;
     try {
       const auto stop = [this] { return call_.is_over() || call_.serving().ending || stop_; };
@@ -153,15 +156,20 @@ class CompressCall : public grpc::ServerBidiReactor<v1::CompressRequest, v1::Com
       check_place();
       version = call_.serving().repository.publish(parse_material_name(options_.name())->id, std::move(bytes), options_.overwrite());
       log_event(Severity::info, "material.compressed", {{"material", version->id}, {"version", version->version}, {"bytes", std::to_string(version->bytes.size())}});
+    } catch (const Error& e) {
+      failed = std::current_exception();
+      ended = e.code() == ErrorCode::cancelled && call_.serving().ending && !call_.is_over();
     } catch (...) {
       failed = std::current_exception();
     }
     job_.reset();
     const std::lock_guard lock(mutex_);
+    if (ended) return end({grpc::StatusCode::UNAVAILABLE, "the server ends"});  // another replica can do it
     if (failed) return fail(failed);
     progress_.reset();
     result_ = version;
     outcome_ = grpc::Status::OK;
+    place_.reset();
     write_next();
   }
 
@@ -218,11 +226,14 @@ class CompressCall : public grpc::ServerBidiReactor<v1::CompressRequest, v1::Com
     if (outcome_) return;
     outcome_ = status;
     progress_.reset();
+    // Now, and not when gRPC or the alarm let go: a client that does not read its answer keeps no place, and the end of the daemon no folder.
+    job_.reset();
+    place_.reset();
     write_next();
   }
 
   Call call_;
-  const Place place_;
+  std::optional<Place> place_;
   std::mutex mutex_;
   grpc::Alarm alarm_;
   int holders_ = 2;

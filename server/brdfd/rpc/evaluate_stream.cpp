@@ -42,6 +42,7 @@ class EvaluateStreams::Stream : public grpc::ServerBidiReactor<v1::EvaluateStrea
     reading_ = false;
     if (!ok) {
       reads_ended_ = true;
+      if (!failure_ && is_cut_short(slots_[read_at_].request)) failure_ = unreadable_message();
     } else if (!failure_ && !finished_) {
       Slot& slot = slots_[read_at_];
       read_at_ = (read_at_ + 1) % slots_.size();

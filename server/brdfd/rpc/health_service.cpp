@@ -50,13 +50,14 @@ class HealthService::Watcher : public grpc::ServerWriteReactor<HealthCheckRespon
     {
       const std::lock_guard lock(mutex_);
       writing_ = false;
-      if (!ok) return finish(grpc::Status::CANCELLED);
+      if (!ok || cancelled_) return finish(grpc::Status::CANCELLED);
     }
     poke();
   }
 
   void OnCancel() override {
     const std::lock_guard lock(mutex_);
+    cancelled_ = true;  // the write under way may still succeed
     if (!writing_) finish(grpc::Status::CANCELLED);
   }
 
@@ -80,7 +81,7 @@ class HealthService::Watcher : public grpc::ServerWriteReactor<HealthCheckRespon
   std::shared_ptr<Watcher> self_;
   std::mutex mutex_;
   std::optional<HealthCheckResponse::ServingStatus> said_;
-  bool writing_ = false, finished_ = false;
+  bool writing_ = false, cancelled_ = false, finished_ = false;
   HealthCheckResponse response_;
 };
 
@@ -106,6 +107,11 @@ grpc::ServerWriteReactor<HealthCheckResponse>* HealthService::Watch(grpc::Callba
   auto watcher = std::make_shared<Watcher>(*this, knows(request->service()));
   watcher->start(watcher);
   return watcher.get();
+}
+
+std::size_t HealthService::watching() const {
+  const std::lock_guard lock(mutex_);
+  return watchers_.size();
 }
 
 void HealthService::poke_all() {

@@ -19,6 +19,8 @@ class HealthService : public grpc::health::v1::Health::CallbackService {
   explicit HealthService(std::vector<std::string> services) : services_(std::move(services)) {}
 
   void set_serving(bool serving);
+  /// Watch calls that are open.
+  std::size_t watching() const;
   /// Ends the Watch calls, so that they do not hold up the end of the server.
   void end();
 
@@ -35,7 +37,7 @@ class HealthService : public grpc::health::v1::Health::CallbackService {
   void poke_all();
 
   const std::vector<std::string> services_;
-  std::mutex mutex_;
+  mutable std::mutex mutex_;
   bool serving_ = false, ended_ = false;
   std::set<std::shared_ptr<Watcher>> watchers_;
 };

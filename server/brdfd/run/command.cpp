@@ -59,6 +59,7 @@ sigset_t block_signals() {
   ::pthread_sigmask(SIG_BLOCK, &set, nullptr);
   ::signal(SIGPIPE, SIG_IGN);
   ::signal(SIGXFSZ, SIG_IGN);
+  ::signal(SIGCHLD, SIG_DFL);  // a parent's SIG_IGN is inherited, and children would vanish
   return set;
 }
 

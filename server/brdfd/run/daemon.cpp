@@ -26,15 +26,22 @@ Daemon::Daemon(const Settings& settings)
   if (serving_.repository.mode() != RepositoryMode::manual) {
     for (const Refusal& r : poll_repository(serving_).refused) log_event(Severity::warning, "repository.refused", {{"material", r.id}, {"reason", r.reason}});
   }
-  listen();
-  listen_for_admin();
-  expose_metrics();
-  health_.set_serving(true);
-  admin_health_.set_serving(true);
-  if (serving_.repository.mode() == RepositoryMode::poll) poller_ = std::thread([this] { poll_regularly(); });
+  try {
+    listen();
+    listen_for_admin();
+    expose_metrics();
+    health_.set_serving(true);
+    admin_health_.set_serving(true);
+    if (serving_.repository.mode() == RepositoryMode::poll) poller_ = std::thread([this] { poll_regularly(); });
+  } catch (...) {
+    stop();  // somebody may watch already, whom a server waits for
+    throw;
+  }
 }
 
-Daemon::~Daemon() {
+Daemon::~Daemon() { stop(); }
+
+void Daemon::stop() {
   {
     const std::lock_guard lock(mutex_);
     ending_ = true;

@@ -52,6 +52,7 @@ class Daemon {
   void listen_for_admin();
   void expose_metrics();
   void poll_regularly();
+  void stop();
 
   Serving serving_;
   Watchers watchers_;
