@@ -67,6 +67,17 @@ TEST(ChildProcess, EndsWhereChildrenAreCollectedByThemselves) {
   EXPECT_EQ(r.code, 127) << "how it ended is not known, so it was no success";
 }
 
+TEST(ChildProcess, ExceptionsLeaveNoChild) {
+  pid_t child = 0;
+  const auto reads = [&](const std::string& line) {
+    child = static_cast<pid_t>(std::stol(line));
+    throw std::runtime_error("enough");
+  };
+  EXPECT_THROW(run_child({"/bin/sh", "-c", "echo $$ >&3; sleep 1000"}, minute(), reads, [] { return false; }), std::runtime_error);
+  ASSERT_GT(child, 0);
+  EXPECT_EQ(::kill(child, 0), -1) << "it is gone, and collected";
+}
+
 TEST(ChildProcess, FloodsDoNotOutlastTheTime) {
   for (const char* flood : {"exec cat /dev/zero >&3", "exec cat /dev/zero >&2", "yes >&3 & yes >&2; true"}) {
     ChildLimits l;

@@ -101,6 +101,23 @@ std::vector<std::string> small_environment() {
   return list;
 }
 
+/// A child that an exception would leave behind.
+class Running {
+ public:
+  explicit Running(pid_t child) noexcept : child_(child) {}
+  ~Running() {
+    ::kill(-child_, SIGKILL);  // it where it still runs, and whatever it may have started
+    if (!collected_) ::waitpid(child_, nullptr, 0);
+  }
+  Running(const Running&) = delete;
+  Running& operator=(const Running&) = delete;
+  void collected() noexcept { collected_ = true; }
+
+ private:
+  pid_t child_;
+  bool collected_ = false;
+};
+
 }  // namespace
 
 ChildResult run_child(const std::vector<std::string>& arguments, const ChildLimits& limits, const std::function<void(const std::string&)>& on_line,
@@ -114,6 +131,7 @@ ChildResult run_child(const std::vector<std::string>& arguments, const ChildLimi
   if (child < 0) throw base::io_error(arguments.front(), "start", errno);
   if (child == 0) become(argv.data(), envp.data(), limits, null.get(), progress.write.get(), errors.write.get(), parent);
   ::setpgid(child, child);  // both sides do it, whoever comes first
+  Running running(child);
   progress.write = base::FileDescriptor();
   errors.write = base::FileDescriptor();
 
@@ -126,6 +144,7 @@ ChildResult run_child(const std::vector<std::string>& arguments, const ChildLimi
     ::poll(ready.data(), ready.size(), 20);
     const pid_t collected = ::waitpid(child, &status, WNOHANG);
     gone = collected == child || (collected < 0 && errno != EINTR);
+    if (gone) running.collected();
     if (gone && collected < 0) status = lost_status;  // where children are collected by themselves, nobody learns how they ended
     const bool more = drain(progress.read.get(), line, longest_line * 16);
     const bool more_errors = drain(errors.read.get(), result.errors, longest_errors);
@@ -138,7 +157,6 @@ ChildResult run_child(const std::vector<std::string>& arguments, const ChildLimi
     // Both ends closed, yet the child lives: poll would return at once.
     if (!gone && !more && !more_errors) ::usleep(5000);
   }
-  ::kill(-child, SIGKILL);  // whatever it may have started
   if (result.end == ChildResult::End::exited) {
     if (WIFSIGNALED(status)) result.end = ChildResult::End::signalled;
     result.code = WIFSIGNALED(status) ? WTERMSIG(status) : WEXITSTATUS(status);

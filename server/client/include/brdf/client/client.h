@@ -84,9 +84,9 @@ class Client {
   v1::AlbedoResponse albedo(const v1::AlbedoRequest& request);
   v1::FindSimilarResponse similar(const v1::FindSimilarRequest& request);
 
-  /// Answers in order, several batches under way at once. `next` is called from a thread of its own and gives false at the end; `answer` takes each answer with
-  /// the number of its request from 0. The deadline counts for the whole stream. Where a replica ends or refuses, what is not yet answered
-  /// is asked of another; up to eight batches are kept for that.
+  /// Answers in order, several batches under way at once. `next` is called from a thread of its own, which no deadline interrupts, and
+  /// gives false at the end; `answer` takes each answer with the number of its request from 0. The deadline counts for the whole stream.
+  /// Where a replica ends or refuses, what is not yet answered is asked of another; up to eight batches are kept for that.
   void evaluate_stream(const std::function<bool(v1::EvaluateRequest&)>& next, const std::function<void(std::uint64_t, const v1::EvaluateResponse&)>& answer,
                        std::chrono::milliseconds deadline);
 
