@@ -13,6 +13,16 @@ namespace brdf::client {
 
 namespace fs = std::filesystem;
 
+namespace {
+
+/// The last used go last. The system's own times of new files are some milliseconds behind this clock.
+void mark_used(const fs::path& path) noexcept {
+  std::error_code ignored;
+  fs::last_write_time(path, fs::file_time_type::clock::now(), ignored);
+}
+
+}  // namespace
+
 fs::path FileCache::path_of(const std::string& version) const { return folder_ / (version + ".brdfc"); }
 
 std::optional<std::vector<std::byte>> FileCache::find(const std::string& version) const {
@@ -26,7 +36,7 @@ std::optional<std::vector<std::byte>> FileCache::find(const std::string& version
       fs::remove(path, error);
       return std::nullopt;
     }
-    fs::last_write_time(path, fs::file_time_type::clock::now(), error);  // the last used go last
+    mark_used(path);
     return bytes;
   } catch (const Error&) {
     return std::nullopt;
@@ -38,6 +48,7 @@ void FileCache::store(const std::string& version, std::span<const std::byte> byt
   try {
     fs::create_directories(folder_);
     base::write_file_atomically(path_of(version), bytes, true);
+    mark_used(path_of(version));
     drop_oldest();
   } catch (const std::exception&) {
   }

@@ -65,6 +65,13 @@ TEST(FileCache, BelievesContentsAndKeepsToItsSize) {
   cache.store(name_b, b);
   EXPECT_EQ(cache.find(name_b), b);
   EXPECT_EQ(cache.find(name_a), std::nullopt) << "272 and 227 bytes are more than 400: the older one goes";
+  // What was stored last stays, however soon after the use of another.
+  for (int i = 0; i < 50; ++i) {
+    cache.store(name_a, a);
+    ASSERT_EQ(cache.find(name_a), a) << i;
+    cache.store(name_b, b);
+    ASSERT_EQ(cache.find(name_b), b) << i;
+  }
   FileCache("/proc/nowhere", 400).store(name_a, a);  // no error
 }
 
